@@ -1,0 +1,133 @@
+# rt: a ray tracer in C11 and OpenCL C. README.md says what each target is for.
+
+PREFIX ?= /usr/local
+DESTDIR ?=
+CC ?= cc
+CFLAGS ?= -O2 -g
+# Empty for compilers whose warnings nobody here has seen: make WERROR=
+WERROR ?= -Werror
+# build/ holds everything that is made except ./rt; make asan keeps its own.
+BUILD ?= build
+
+PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
+            zlib1g-dev libcmocka-dev pkg-config
+PACKAGES_LINT := clang-format clang-tidy cppcheck
+PACKAGES_CLANG := clang
+LIBRARIES := OpenCL jansson zlib
+# In the order in which program.c and check-kernels put them together.
+KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl tile.cl intersect.cl \
+           traverse.cl camera.cl trace.cl shade.cl resolve.cl)
+
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
+# No contraction: a multiply-add is fused where the code says fma, and nowhere else.
+override CFLAGS += -std=c11 -ffp-contract=off $(WARNINGS) -MMD -MP
+# Asked only when something is compiled, since `make demo` installs pkg-config first.
+PKG_CFLAGS = $(shell pkg-config --cflags $(LIBRARIES) stb cmocka)
+PKG_LIBS = $(shell pkg-config --libs $(LIBRARIES))
+
+SOURCES := $(wildcard src/*.c)
+# scalar.c is compiled twice, for float and for double; stb's code is compiled as it is.
+OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/scalar_double.o \
+           $(BUILD)/kernel_text.o
+LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
+TESTS := $(patsubst tests/%.c,$(BUILD)/%,$(wildcard tests/test_*.c))
+TEST_HELPERS := $(patsubst tests/%.c,$(BUILD)/tests_%.o,$(filter-out tests/test_%.c,$(wildcard tests/*.c)))
+
+.PHONY: all demo test check lint asan check-kernels deps deps-lint deps-clang install uninstall clean
+.DELETE_ON_ERROR:
+
+all: rt
+
+rt: $(BUILD)/rt
+	cp $< $@
+
+$(BUILD)/rt: $(OBJECTS)
+	$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
+
+$(BUILD)/%.o: src/%.c | $(BUILD)
+	$(CC) $(CFLAGS) $(PKG_CFLAGS) -c -o $@ $<
+
+$(BUILD)/scalar_double.o: src/scalar.c | $(BUILD)
+	$(CC) $(CFLAGS) -DRT_SCALAR_DOUBLE -c -o $@ $<
+
+$(BUILD)/kernel_text.o: $(BUILD)/kernel_text.c
+	$(CC) $(CFLAGS) -Isrc -c -o $@ $<
+
+$(BUILD)/kernel_text.c: src/kernel_text.awk $(KERNELS) | $(BUILD)
+	awk -f src/kernel_text.awk $(KERNELS) >$@
+
+$(BUILD):
+	mkdir -p $@
+
+# Two commands on a fresh machine: both install what is missing and say nothing when nothing is.
+demo: deps
+	@$(MAKE) --no-print-directory rt
+	./rt scenes/icecream.txt icecream.png
+
+test: deps
+	@$(MAKE) --no-print-directory check
+
+check: rt $(TESTS)
+	@RT=./rt tests/run $(TESTS)
+
+$(BUILD)/tests_%.o: tests/%.c | $(BUILD)
+	$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc -c -o $@ $<
+
+$(BUILD)/test_%: tests/test_%.c $(TEST_HELPERS) $(LIBRARY)
+	$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lcmocka -lm
+
+asan: deps
+	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
+	$(MAKE) --no-print-directory BUILD=build/asan \
+	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" \
+	    check-asan
+
+.PHONY: check-asan
+check-asan: $(BUILD)/rt $(TESTS)
+	@RT=$(BUILD)/rt tests/run $(TESTS)
+
+lint: deps deps-lint
+	clang-format --dry-run -Werror src/*.[ch] tests/*.[ch] kernels/*
+	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
+	    --suppress=missingIncludeSystem --error-exitcode=1 src tests/*.c
+	clang-tidy --quiet $(SOURCES) -- -std=c11 -Isrc $(PKG_CFLAGS)
+
+check-kernels: deps-clang
+	@tests/check_kernels $(KERNELS)
+
+# Installs the packages that are named and not there; silent when all are.
+define install_missing
+	@missing=; for p in $(1); do \
+	    dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || missing="$$missing $$p"; \
+	done; \
+	if [ -n "$$missing" ]; then \
+	    if [ "$$(id -u)" = 0 ]; then sudo=; else sudo=sudo; fi; \
+	    echo "installing$$missing"; \
+	    export DEBIAN_FRONTEND=noninteractive; \
+	    $$sudo apt-get install -y -qq --no-install-recommends $$missing >/dev/null 2>&1 || \
+	    { $$sudo apt-get update -qq && \
+	      $$sudo apt-get install -y -qq --no-install-recommends $$missing >/dev/null; }; \
+	fi
+endef
+
+deps:
+	$(call install_missing,$(PACKAGES))
+
+deps-lint:
+	$(call install_missing,$(PACKAGES_LINT))
+
+deps-clang:
+	$(call install_missing,$(PACKAGES_CLANG))
+
+install: rt
+	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
+	install -m 755 rt $(DESTDIR)$(PREFIX)/bin/rt
+	install -m 644 src/rt.1 $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
+
+uninstall:
+	rm -f $(DESTDIR)$(PREFIX)/bin/rt $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
+
+clean:
+	rm -rf build rt icecream.png
+
+-include $(wildcard $(BUILD)/*.d)

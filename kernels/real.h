@@ -1,0 +1,96 @@
+/* The lane type of the trace stage, and the arithmetic that must give the same bits everywhere.
+ *
+ * A `real` holds RT_LANES rays' values of one quantity; a `mask` is -1 in the lanes that are on
+ * and 0 elsewhere. Every multiply-add is a written fma, so that there is nothing left for a
+ * compiler to contract: contraction on or off, the bits are the same. */
+#pragma OPENCL FP_CONTRACT OFF
+
+#if RT_ROUNDING == 1
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#endif
+
+#if RT_LANES == 1
+typedef float real;
+typedef int mask;
+#define AS_REAL as_float
+#define AS_MASK as_int
+#define LOAD_REAL(p) (*(p))
+#define STORE_REAL(v, p) (*(p) = (v))
+#define STORE_MASK(v, p) (*(p) = (v))
+/* Scalar comparisons give 1 for true, vector ones -1. */
+#define MASK(condition) (-(condition))
+#define ANY(m) ((m) != 0)
+#define SELECT(off, on, m) ((m) ? (on) : (off))
+#else
+#define RT_PASTE_(a, b) a##b
+#define RT_PASTE(a, b) RT_PASTE_(a, b)
+typedef RT_PASTE(float, RT_LANES) real;
+typedef RT_PASTE(int, RT_LANES) mask;
+#define AS_REAL RT_PASTE(as_float, RT_LANES)
+#define AS_MASK RT_PASTE(as_int, RT_LANES)
+#define LOAD_REAL(p) RT_PASTE(vload, RT_LANES)(0, p)
+#define STORE_REAL(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
+#define STORE_MASK(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
+#define MASK(condition) (condition)
+#define ANY(m) any(m)
+#define SELECT(off, on, m) select(off, on, m)
+#endif
+
+typedef struct real3 {
+    real x, y, z;
+} real3;
+
+/* Works for real3 and for vec3 alike; arguments are evaluated more than once. */
+#define DOT(a, b) fma((a).x, (b).x, fma((a).y, (b).y, (a).z * (b).z))
+#define CROSS(type, a, b)                                                                          \
+    ((type){fma((a).y, (b).z, -((a).z * (b).y)), fma((a).z, (b).x, -((a).x * (b).z)),              \
+            fma((a).x, (b).y, -((a).y * (b).x))})
+#define SUB(type, a, b) ((type){(a).x - (b).x, (a).y - (b).y, (a).z - (b).z})
+
+#define SPLAT3(px, py, pz) ((real3){(real)(px), (real)(py), (real)(pz)})
+
+/* Correctly rounded division and square root, whatever the device's own do.
+ *
+ * By way of double the second rounding is harmless, because 53 bits are more than twice 24 and two
+ * (Figueroa 1995). By fma: a reciprocal and a quotient within a few ulp become correctly rounded
+ * after the residual is added back (Markstein 1990), as long as nothing leaves the range of normal
+ * numbers. */
+#if RT_ROUNDING == 0
+#define DIVIDE(a, b) ((a) / (b))
+#define ROOT(a) sqrt(a)
+#elif RT_ROUNDING == 1
+#if RT_LANES == 1
+#define WIDEN convert_double
+#define NARROW convert_float
+#else
+#define WIDEN RT_PASTE(convert_double, RT_LANES)
+#define NARROW RT_PASTE(convert_float, RT_LANES)
+#endif
+#define DIVIDE(a, b) NARROW(WIDEN(a) / WIDEN(b))
+#define ROOT(a) NARROW(sqrt(WIDEN(a)))
+#else
+#define DIVIDE(a, b) divide_by_fma(a, b)
+#define ROOT(a) root_by_fma(a)
+
+real divide_by_fma(real a, real b)
+{
+    real y = 1.0f / b;
+    y = fma(fma(-b, y, (real)1.0f), y, y);
+    y = fma(fma(-b, y, (real)1.0f), y, y);
+    real q = a * y;
+    q = fma(fma(-b, q, a), y, q);
+    const real exact = fma(fma(-b, q, a), y, q);
+    /* Zero, infinite and NaN operands make the residual NaN where the quotient is right. */
+    return SELECT(a / b, exact, MASK(isfinite(exact)));
+}
+
+real root_by_fma(real a)
+{
+    const real y = 1.0f / sqrt(a);
+    real g = a * y;
+    const real h = 0.5f * y;
+    g = fma(fma(-g, g, a), h, g);
+    const real exact = fma(fma(-g, g, a), h, g);
+    return SELECT(sqrt(a), exact, MASK(isfinite(exact)));
+}
+#endif

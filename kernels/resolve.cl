@@ -1,0 +1,33 @@
+/* Stage 4: from colours and hits in block order to the tile's rows. */
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
+           __global float *picture)
+{
+    const pixel p = tile_pixel(tile);
+    if (!p.inside)
+        return;
+    const vec3 color = load3(colors, stride, get_global_id(0));
+    __global float *out =
+        picture + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
+    out[0] = color.x;
+    out[1] = color.y;
+    out[2] = color.z;
+}
+
+/* Hit records of four words a pixel: primitive index, then t, u, v. */
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_index,
+                __global const float *hit_array, __global int *records)
+{
+    const pixel p = tile_pixel(tile);
+    if (!p.inside)
+        return;
+    const size_t i = get_global_id(0);
+    const vec3 tuv = load3(hit_array, stride, i);
+    __global int *out = records + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * 4;
+    out[0] = hit_index[i];
+    out[1] = as_int(tuv.x);
+    out[2] = as_int(tuv.y);
+    out[3] = as_int(tuv.z);
+}

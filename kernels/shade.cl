@@ -1,0 +1,136 @@
+/* Stage 3: from hits to colours, by Phong's formula as it was written (Phong 1975):
+ *
+ *     I = Ia ka + sum over lights of Ip (kd max(0, N.L) + ks max(0, R.V)^n)
+ *
+ * with R the mirror of L about N and V toward the eye, all unit. The sign of N.L does not gate the
+ * highlight. Few branches: runtimes then vectorise across work-items. */
+
+/* x to a whole power by repeated squaring, lowest bit first: the same bits on every device. A
+ * library's pow takes longer than tracing the ray. 0 to the power of 0 is 1. */
+float power_whole(float x, int exponent)
+{
+    float result = 1.0f;
+#pragma unroll
+    for (int bit = 0; bit < RT_SHININESS_BITS; ++bit) {
+        result = (exponent >> bit) & 1 ? result * x : result;
+        x = x * x;
+    }
+    return result;
+}
+
+float highlight(float cosine, int exponent, float shininess)
+{
+    const float whole = power_whole(cosine, exponent);
+#if RT_SHININESS_FRACTION
+    /* 3 ulp each for log2 and exp2: at most 1e-5 of the result wherever it is above 1e-6. */
+    return exponent >= 0 ? whole : exp2(shininess * log2(cosine));
+#else
+    return whole;
+#endif
+}
+
+#if RT_TRIANGLES
+/* The geometric normal, unit. It is made from the edges as they are and made unit last: a unit
+ * edge would shrink the triangle, a vector left as it is would turn highlights white. */
+vec3 geometric_normal(rt_triangle triangle)
+{
+    const vec3 e1 = {triangle.bx - triangle.ax, triangle.by - triangle.ay,
+                     triangle.bz - triangle.az};
+    const vec3 e2 = {triangle.cx - triangle.ax, triangle.cy - triangle.ay,
+                     triangle.cz - triangle.az};
+    return normalize3(CROSS(vec3, e1, e2));
+}
+#endif
+
+/* `normal` turned to the side that `direction` comes from. */
+vec3 turn_toward(vec3 normal, vec3 direction)
+{
+    return DOT(normal, direction) > 0.0f ? scale(normal, -1.0f) : normal;
+}
+
+#if RT_SMOOTH
+/* The interpolated vertex normal on the side of `facing`, the geometric normal turned toward the
+ * ray; `facing` itself where the vertex normals cancel. */
+vec3 smooth_normal(__global const float *n, float u, float v, vec3 facing)
+{
+    const float w = 1.0f - u - v;
+    const vec3 sum = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
+                      fma(v, n[8], fma(u, n[5], w * n[2]))};
+    const vec3 unit = normalize3(sum);
+    const float side = DOT(unit, facing);
+    if (!isfinite(side))
+        return facing;
+    return side < 0.0f ? scale(unit, -1.0f) : unit;
+}
+#endif
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+rt_shade(const int stride, __global const float *rays, __global const int *hit_index,
+         __global const float *hit_array, __global const rt_sphere *spheres, const int sphere_count,
+         __global const rt_triangle *triangles, __global const int *material_of,
+         __global const int *normals_of, __global const float *normals,
+         __global const rt_material *materials, __global const rt_light *lights,
+         const int light_count, const rt_surround surround, __global float *colors)
+{
+    const size_t i = get_global_id(0);
+    const size_t step = (size_t)stride;
+    const int index = hit_index[i];
+    vec3 color = {surround.background_r, surround.background_g, surround.background_b};
+
+    if (index != RT_MISS) {
+        const vec3 origin = load3(rays, stride, i);
+        const vec3 direction = load3(rays + RT_RAY_DX * step, stride, i);
+        const float t = hit_array[RT_HIT_T * step + i];
+        const vec3 point = {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
+                            fma(t, direction.z, origin.z)};
+        vec3 normal;
+#if RT_SPHERES
+        if (index < sphere_count) {
+            const rt_sphere sphere = spheres[index];
+            const vec3 center = {sphere.cx, sphere.cy, sphere.cz};
+            normal = turn_toward(normalize3(SUB(vec3, point, center)), direction);
+        }
+#endif
+#if RT_SPHERES && RT_TRIANGLES
+        else
+#endif
+#if RT_TRIANGLES
+        {
+            const int triangle = index - sphere_count;
+            normal = turn_toward(geometric_normal(triangles[triangle]), direction);
+#if RT_SMOOTH
+            const int record = normals_of[triangle];
+            if (record >= 0)
+                normal = smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS,
+                                       hit_array[RT_HIT_U * step + i],
+                                       hit_array[RT_HIT_V * step + i], normal);
+#endif
+        }
+#endif
+        const rt_material m = materials[material_of[index]];
+        color = (vec3){surround.ambient_r * m.ka_r, surround.ambient_g * m.ka_g,
+                       surround.ambient_b * m.ka_b};
+        for (int k = 0; k < light_count; ++k) {
+            const rt_light light = lights[k];
+            const vec3 to_light = {fma(-light.w, point.x, light.x), fma(-light.w, point.y, light.y),
+                                   fma(-light.w, point.z, light.z)};
+            /* A light exactly at the point has no direction and gives nothing. */
+            const float lit = DOT(to_light, to_light) > 0.0f ? 1.0f : 0.0f;
+            const vec3 l = normalize3(to_light);
+            const float n_dot_l = DOT(normal, l);
+            const float twice = 2.0f * n_dot_l;
+            const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),
+                                   fma(twice, normal.z, -l.z)};
+            const float r_dot_v = -DOT(mirrored, direction);
+            const float diffuse = lit * (n_dot_l > 0.0f ? n_dot_l : 0.0f);
+            const float specular =
+                lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m.exponent, m.shininess);
+            color.x = fma(light.r, fma(m.ks_r, specular, m.kd_r * diffuse), color.x);
+            color.y = fma(light.g, fma(m.ks_g, specular, m.kd_g * diffuse), color.y);
+            color.z = fma(light.b, fma(m.ks_b, specular, m.kd_b * diffuse), color.z);
+        }
+    }
+    colors[i] = color.x;
+    colors[step + i] = color.y;
+    colors[2 * step + i] = color.z;
+}

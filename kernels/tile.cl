@@ -1,0 +1,19 @@
+/* Which pixel a work-item of the camera and resolve stages stands for. One work-group is one 8x8
+ * block; blocks go row by row through the tile, and the last ones may hang over its edge. */
+
+typedef struct pixel {
+    int column, row; /* within the tile */
+    int inside;      /* 0 where a block hangs over the tile's edge */
+} pixel;
+
+pixel tile_pixel(rt_tile tile)
+{
+    const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;
+    const int block = (int)get_group_id(0);
+    const int local_id = (int)get_local_id(0);
+    pixel p;
+    p.column = block % blocks_per_row * RT_BLOCK_SIDE + local_id % RT_BLOCK_SIDE;
+    p.row = block / blocks_per_row * RT_BLOCK_SIDE + local_id / RT_BLOCK_SIDE;
+    p.inside = (p.column < tile.width) & (p.row < tile.height);
+    return p;
+}

@@ -1,0 +1,82 @@
+/* What the host and the kernels share: the layout of every array that goes to a device. Scalar
+ * fields only and padding spelled out, so that each compiler lays them out alike. */
+#ifndef RT_TYPES_H
+#define RT_TYPES_H
+
+/* Rays of a tile lie in blocks of 8x8 pixels, so that neighbours in the array are neighbours in
+ * the picture. One block is one work-group at every lane width. */
+#define RT_BLOCK_SIDE 8
+#define RT_BLOCK_RAYS (RT_BLOCK_SIDE * RT_BLOCK_SIDE)
+
+/* Components of a ray array: component c of ray i lies at [c * stride + i]. */
+#define RT_RAY_OX 0
+#define RT_RAY_OY 1
+#define RT_RAY_OZ 2
+#define RT_RAY_DX 3
+#define RT_RAY_DY 4
+#define RT_RAY_DZ 5
+#define RT_RAY_TMIN 6
+#define RT_RAY_TMAX 7
+#define RT_RAY_COMPONENTS 8
+
+/* Components of a hit array, laid out likewise; the primitive index is in an int array beside it.
+ * t is in units of the ray's direction; u and v weigh the vertices b and c, 0 for a sphere. */
+#define RT_HIT_T 0
+#define RT_HIT_U 1
+#define RT_HIT_V 2
+#define RT_HIT_COMPONENTS 3
+#define RT_MISS (-1)
+
+/* Components of a vertex-normal record and of a colour array. */
+#define RT_NORMAL_COMPONENTS 9
+#define RT_COLOR_COMPONENTS 3
+
+/* Primitive indices count the spheres first, in file order, then the triangles. */
+typedef struct rt_sphere {
+    float cx, cy, cz, radius;
+} rt_sphere;
+
+typedef struct rt_triangle {
+    float ax, ay, az, bx, by, bz, cx, cy, cz;
+} rt_triangle;
+
+/* Phong's coefficients; `exponent` is the shininess where it is whole, else -1. */
+typedef struct rt_material {
+    float ka_r, ka_g, ka_b;
+    float kd_r, kd_g, kd_b;
+    float ks_r, ks_g, ks_b;
+    float shininess;
+    int exponent;
+    int padding;
+} rt_material;
+
+/* (x, y, z) is the position of a point light (w = 1) or the unit vector toward a directional one
+ * (w = 0), so that xyz - w * point is the vector toward the light for both. */
+typedef struct rt_light {
+    float x, y, z, w;
+    float r, g, b;
+    int padding;
+} rt_light;
+
+/* The direction of pixel (x, y) before it is made unit:
+ * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward. */
+typedef struct rt_frame {
+    float ox, oy, oz;
+    float right_x, right_y, right_z;
+    float up_x, up_y, up_z;
+    float forward_x, forward_y, forward_z;
+    int width, height;
+} rt_frame;
+
+/* The part of the picture that one round of launches computes, in pixels; row 0 is the top. */
+typedef struct rt_tile {
+    int x, y, width, height;
+} rt_tile;
+
+/* Ambient light times nothing yet: the material's ka is applied where it is known. */
+typedef struct rt_surround {
+    float background_r, background_g, background_b;
+    float ambient_r, ambient_g, ambient_b;
+} rt_surround;
+
+#endif

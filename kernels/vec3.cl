@@ -1,0 +1,37 @@
+/* What the scalar stages share: a vector of one ray, and correctly rounded scalar division and
+ * square root. A struct of scalars, not float3: runtimes vectorise these stages across work-items,
+ * and a vector type inside would stop them. */
+
+typedef struct vec3 {
+    float x, y, z;
+} vec3;
+
+#if RT_LANES == 1
+#define DIVIDE_1(a, b) DIVIDE(a, b)
+#define ROOT_1(a) ROOT(a)
+#elif RT_ROUNDING == 0
+#define DIVIDE_1(a, b) ((a) / (b))
+#define ROOT_1(a) sqrt(a)
+#elif RT_ROUNDING == 1
+#define DIVIDE_1(a, b) convert_float(convert_double(a) / convert_double(b))
+#define ROOT_1(a) convert_float(sqrt(convert_double(a)))
+#else
+#define DIVIDE_1(a, b) (DIVIDE((real)(a), (real)(b)).s0)
+#define ROOT_1(a) (ROOT((real)(a)).s0)
+#endif
+
+vec3 scale(vec3 v, float s)
+{
+    return (vec3){v.x * s, v.y * s, v.z * s};
+}
+
+/* Unit length up to rounding; NaN for the zero vector. */
+vec3 normalize3(vec3 v)
+{
+    return scale(v, DIVIDE_1(1.0f, ROOT_1(DOT(v, v))));
+}
+
+vec3 load3(__global const float *array, int stride, size_t i)
+{
+    return (vec3){array[i], array[stride + i], array[2 * (size_t)stride + i]};
+}

@@ -1,0 +1,25 @@
+#include "array.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define FIRST_CAPACITY 16
+
+bool rt_array_grow(void *array, size_t count, size_t *capacity, size_t element_size)
+{
+    if (count < *capacity)
+        return true;
+    const size_t grown = *capacity ? 2 * *capacity : FIRST_CAPACITY;
+    if (grown > SIZE_MAX / element_size / 2)
+        return false;
+    /* Copied, because a pointer to an element type may not be read as a pointer to void. */
+    void *elements;
+    memcpy(&elements, array, sizeof elements);
+    elements = realloc(elements, grown * element_size);
+    if (!elements)
+        return false;
+    memcpy(array, &elements, sizeof elements);
+    *capacity = grown;
+    return true;
+}

@@ -1,0 +1,162 @@
+#include "grammar.h"
+
+#include <float.h>
+#include <stdio.h>
+
+#include "scene.h"
+
+#define NUMBER(name, low, high, is_open, fallback, meaning)                                        \
+    {name, RT_VALUE_NUMBER, low, high, is_open, NULL, fallback, meaning}
+#define COUNT(name, low, high, fallback, meaning)                                                  \
+    {name, RT_VALUE_COUNT, low, high, 0, NULL, fallback, meaning}
+#define POINT(name, fallback, meaning)                                                             \
+    {name, RT_VALUE_POINT, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning}
+#define DIRECTION(name, fallback, meaning)                                                         \
+    {name, RT_VALUE_DIRECTION, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning}
+#define LIGHT_COLOR(name, fallback, meaning)                                                       \
+    {name, RT_VALUE_COLOR, 0.0, FLT_MAX, 0, NULL, fallback, meaning}
+#define REFLECTANCE(name, meaning) {name, RT_VALUE_COLOR, 0.0, 1.0, 0, NULL, "0 0 0", meaning}
+#define CHOICE(name, choices, fallback, meaning)                                                   \
+    {name, RT_VALUE_CHOICE, 0, 0, 0, choices, fallback, meaning}
+#define PLAIN(name, kind, meaning) {name, kind, 0, 0, 0, NULL, NULL, meaning}
+
+const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
+    [RT_STATEMENT_RT] = {"rt",
+                         NULL,
+                         0,
+                         "the first statement: the version of the format",
+                         {COUNT(NULL, 1, 1, NULL, "version")}},
+    [RT_STATEMENT_INCLUDE] = {"include",
+                              NULL,
+                              0,
+                              "reads another file's statements here",
+                              {PLAIN(NULL, RT_VALUE_PATH, "path, relative to the including file")}},
+    [RT_STATEMENT_IMAGE] = {"image",
+                            NULL,
+                            1,
+                            "the size of the picture",
+                            {COUNT("width", 1, RT_IMAGE_SIDE_MAX, "512", "pixels"),
+                             COUNT("height", 1, RT_IMAGE_SIDE_MAX, "512", "pixels")}},
+    [RT_STATEMENT_CAMERA] =
+        {"camera",
+         NULL,
+         1,
+         "where the picture is taken from",
+         {POINT("from", "0 0 0", "the eye"), POINT("at", "0 0 -1", "a point on the view's axis"),
+          DIRECTION("up", "0 1 0", "the direction that is up in the picture"),
+          NUMBER("vfov", 0.0, 180.0, 1, "90", "degrees from bottom to top")}},
+    [RT_STATEMENT_BACKGROUND] = {"background",
+                                 NULL,
+                                 1,
+                                 "the light where no primitive is hit",
+                                 {LIGHT_COLOR(NULL, NULL, "colour; black if not given")}},
+    [RT_STATEMENT_AMBIENT] = {"ambient",
+                              NULL,
+                              1,
+                              "the ambient light",
+                              {LIGHT_COLOR(NULL, NULL, "colour; black if not given")}},
+    [RT_STATEMENT_LIGHT_POINT] = {"light",
+                                  "point",
+                                  0,
+                                  "a light at a point, not weakened by distance",
+                                  {POINT("at", NULL, "its place"),
+                                   LIGHT_COLOR("color", "1 1 1", "its colour")}},
+    [RT_STATEMENT_LIGHT_DIRECTIONAL] = {"light",
+                                        "directional",
+                                        0,
+                                        "a light from infinitely far away",
+                                        {DIRECTION("direction", NULL, "the way the light travels"),
+                                         LIGHT_COLOR("color", "1 1 1", "its colour")}},
+    [RT_STATEMENT_MATERIAL] = {"material",
+                               NULL,
+                               0,
+                               "a surface for the primitives below it",
+                               {PLAIN(NULL, RT_VALUE_NAME, "its name"),
+                                REFLECTANCE("ka", "ambient reflectance"),
+                                REFLECTANCE("kd", "diffuse reflectance"),
+                                REFLECTANCE("ks", "specular reflectance"),
+                                NUMBER("shininess", 0.0, RT_SHININESS_MAX, 0, "1",
+                                       "Phong's exponent n")}},
+    [RT_STATEMENT_SPHERE] = {"sphere",
+                             NULL,
+                             0,
+                             "a sphere",
+                             {POINT("center", NULL, "its centre"),
+                              NUMBER("radius", 0.0, FLT_MAX, 1, NULL, "its radius"),
+                              PLAIN("material", RT_VALUE_MATERIAL, "its surface")}},
+    [RT_STATEMENT_TRIANGLE] =
+        {"triangle",
+         NULL,
+         0,
+         "a triangle; smooth with `na`, `nb`, `nc`, which go together",
+         {POINT("a", NULL, "first corner"), POINT("b", NULL, "second corner"),
+          POINT("c", NULL, "third corner"), PLAIN("material", RT_VALUE_MATERIAL, "its surface"),
+          POINT("na", "none", "normal at a, of any length"),
+          POINT("nb", "none", "normal at b"), POINT("nc", "none", "normal at c")}},
+    [RT_STATEMENT_CULL] = {"cull",
+                           NULL,
+                           1,
+                           "drops one side of every triangle; spheres stay whole",
+                           {CHOICE(NULL, "back|front", NULL, "the side that is not seen"),
+                            CHOICE("winding", "ccw|cw", "ccw",
+                                   "how a front's corners run as seen from the eye")}},
+};
+
+size_t rt_statement_field_count(const rt_statement *statement)
+{
+    size_t count = 0;
+    while (count < RT_FIELDS_MAX && statement->fields[count].meaning)
+        ++count;
+    return count;
+}
+
+static void expect_range(const rt_field *field, const char *what, char *text, size_t size)
+{
+    const char *open = field->open ? "above" : "from";
+    if (field->max >= (double)FLT_MAX && field->min <= -(double)FLT_MAX)
+        snprintf(text, size, "%s", what);
+    else if (field->max >= (double)FLT_MAX)
+        snprintf(text, size, "%s %s %.10g%s", what, open, field->min, field->open ? "" : " up");
+    else
+        snprintf(text, size, "%s %s %.10g %s %.10g", what, open, field->min,
+                 field->open ? "and below" : "to", field->max);
+}
+
+void rt_field_expectation(const rt_field *field, char *text, size_t size)
+{
+    switch (field->kind) {
+    case RT_VALUE_NUMBER:
+        expect_range(field, "a number", text, size);
+        break;
+    case RT_VALUE_COUNT:
+        if (field->min == field->max)
+            snprintf(text, size, "%.0f", field->min);
+        else
+            expect_range(field, "a whole number", text, size);
+        break;
+    case RT_VALUE_POINT:
+        snprintf(text, size, "three numbers");
+        break;
+    case RT_VALUE_DIRECTION:
+        snprintf(text, size, "three numbers, not all 0");
+        break;
+    case RT_VALUE_COLOR:
+        expect_range(field, "three numbers", text, size);
+        break;
+    case RT_VALUE_CHOICE: {
+        size_t length = 0;
+        for (const char *c = field->choices; *c && length + 5 < size; ++c)
+            length += (size_t)snprintf(text + length, size - length, *c == '|' ? " or " : "%c", *c);
+        break;
+    }
+    case RT_VALUE_NAME:
+        snprintf(text, size, "a name");
+        break;
+    case RT_VALUE_MATERIAL:
+        snprintf(text, size, "the name of a material defined above");
+        break;
+    case RT_VALUE_PATH:
+        snprintf(text, size, "a file name in double quotes");
+        break;
+    }
+}

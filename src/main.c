@@ -1,0 +1,294 @@
+/* From argv to the exit code: reads the scene, renders it, writes what was asked for. */
+#define _GNU_SOURCE
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "clock.h"
+#include "device.h"
+#include "effects.h"
+#include "file.h"
+#include "image.h"
+#include "options.h"
+#include "render.h"
+#include "scalar.h"
+#include "scene.h"
+#include "scene_text.h"
+#include "stats.h"
+#include "status.h"
+
+static volatile sig_atomic_t was_interrupted;
+
+static void on_signal(int signal_number)
+{
+    (void)signal_number;
+    was_interrupted = 1;
+}
+
+static bool keep_going(void *context, double done)
+{
+    (void)context;
+    (void)done;
+    return !was_interrupted;
+}
+
+static const rt_watch watch = {keep_going, NULL};
+
+/* Everything that one run opens, in one place, so that one function lets it go again. */
+typedef struct run {
+    rt_options options;
+    rt_status status;
+    rt_scene scene;
+    rt_device_list devices;
+    const rt_device *device; /* NULL on the scalar path */
+    rt_renderer *renderer;
+    rt_image image;
+    rt_output picture, hits, stats_file;
+    rt_stats stats;
+    double start;
+} run;
+
+/* Messages so far, so that they come before what is printed next. */
+static void flush_messages(run *r)
+{
+    if (r->status.text)
+        fputs(r->status.text, stderr);
+    if (r->status.errors > RT_STATUS_SHOWN)
+        fprintf(stderr, "rt: %zu more errors\n", r->status.errors - RT_STATUS_SHOWN);
+    r->status.length = 0;
+    if (r->status.text)
+        r->status.text[0] = '\0';
+}
+
+static bool read_scene(run *r)
+{
+    const double start = rt_clock_seconds();
+    if (!rt_scene_text_read(&r->scene, r->options.scene, &r->status))
+        return false;
+    if (r->options.width) {
+        r->scene.width = r->options.width;
+        r->scene.height = r->options.height;
+    }
+    r->stats.parse = rt_clock_seconds() - start;
+    if (r->options.quiet)
+        rt_status_clear(&r->status);
+    flush_messages(r);
+    return true;
+}
+
+/* Opened before the work: a target that cannot be written is known at once. */
+static bool open_outputs(run *r)
+{
+    const rt_options *o = &r->options;
+    return (!o->output || rt_output_open(&r->picture, o->output, &r->status)) &&
+           (!o->hits || rt_output_open(&r->hits, o->hits, &r->status)) &&
+           (!o->stats || rt_output_open(&r->stats_file, o->stats, &r->status));
+}
+
+static bool choose_device(run *r)
+{
+    if (r->options.target != RT_TARGET_DEVICE)
+        return true;
+    if (!rt_device_list_read(&r->devices, &r->status))
+        return false;
+    r->device = rt_device_choose(&r->devices, r->options.device, &r->status);
+    if (!r->device)
+        return false;
+    if (!r->options.quiet)
+        fprintf(stderr, "rt: device %d (%d:%d): %s [%s]\n", r->device->index,
+                r->device->platform_index, r->device->device_index, r->device->name,
+                r->device->platform_name);
+    return true;
+}
+
+static bool draw_on_device(run *r)
+{
+    const rt_render_options options = {
+        .lanes = r->options.lanes, .tile = r->options.tile, .with_hits = r->image.hits != NULL};
+    r->renderer = rt_renderer_new(r->device, &r->scene, &options, &r->status);
+    if (!r->renderer)
+        return false;
+    const double start = rt_clock_seconds();
+    if (!rt_renderer_draw(r->renderer, &r->image, &watch, &r->status))
+        return false;
+    const rt_render_times *times = rt_renderer_times(r->renderer);
+    r->stats.times = times;
+    r->stats.program = times->program;
+    r->stats.upload = times->upload;
+    r->stats.readback = times->readback;
+    r->stats.kernel = rt_clock_seconds() - start - times->readback;
+    r->stats.primary_rays = times->primary_rays;
+    r->stats.lanes = rt_renderer_lanes(r->renderer);
+    r->stats.device = r->device->name;
+    r->stats.platform = r->device->platform_name;
+    r->stats.driver = r->device->driver;
+    return true;
+}
+
+static bool draw_scalar(run *r)
+{
+    const bool is_double = r->options.target == RT_TARGET_SCALAR_DOUBLE;
+    const double start = rt_clock_seconds();
+    if (!(is_double ? rt_scalar_double_render : rt_scalar_float_render)(&r->scene, &r->image,
+                                                                        &watch, &r->status))
+        return false;
+    r->stats.kernel = rt_clock_seconds() - start;
+    r->stats.primary_rays = (size_t)r->image.width * (size_t)r->image.height;
+    r->stats.lanes = 1;
+    r->stats.device = is_double ? "scalar-double" : "scalar";
+    r->stats.platform = r->stats.driver = "";
+    return true;
+}
+
+static bool draw(run *r)
+{
+    const bool with_hits = r->options.hits || r->options.verify;
+    if (!rt_image_init(&r->image, r->scene.width, r->scene.height, with_hits, &r->status))
+        return false;
+    return r->device ? draw_on_device(r) : draw_scalar(r);
+}
+
+/* Holds the picture against the scalar path's; false, with code RT_DIFFERENT, where they differ. */
+static bool verify(run *r)
+{
+    rt_image expected;
+    if (!rt_image_init(&expected, r->image.width, r->image.height, true, &r->status))
+        return false;
+    if (!rt_scalar_float_render(&r->scene, &expected, &watch, &r->status)) {
+        rt_image_clear(&expected);
+        return false;
+    }
+    const rt_image_difference d = rt_image_compare(&r->image, &expected);
+    rt_image_clear(&expected);
+    printf("hit records that differ:         %zu of %zu\n"
+           "pixels off by more than 1 step:  %zu\n"
+           "largest difference:              %d steps\n"
+           "root mean square difference:     %.6f steps\n"
+           "pixels that are not finite:      %zu\n",
+           d.hits, (size_t)r->image.width * (size_t)r->image.height, d.pixels, d.max_step,
+           d.rms_step, d.non_finite);
+    if (fflush(stdout) != 0)
+        return rt_status_fail(&r->status, RT_ERROR_OUTPUT, "rt: cannot write standard output");
+    if (d.hits == 0 && d.pixels == 0 && d.non_finite == 0)
+        return true;
+    if (d.first_x < 0)
+        return rt_status_fail(&r->status, RT_DIFFERENT, "rt: some pixels are not finite");
+    return rt_status_fail(&r->status, RT_DIFFERENT,
+                          "rt: the device and the scalar path differ, first at pixel %d,%d",
+                          d.first_x, d.first_y);
+}
+
+static bool write_picture(run *r)
+{
+    const double start = rt_clock_seconds();
+    const rt_options *o = &r->options;
+    const bool good = (!o->output || (rt_image_write(&r->image, o->format, &r->picture, &r->status) &&
+                                      rt_output_commit(&r->picture, &r->status))) &&
+                      (!o->hits || (rt_image_write_hits(&r->image, &r->hits, &r->status) &&
+                                    rt_output_commit(&r->hits, &r->status)));
+    r->stats.encode = rt_clock_seconds() - start;
+    return good;
+}
+
+static bool write_stats(run *r)
+{
+    if (!r->options.stats)
+        return true;
+    rt_stats *s = &r->stats;
+    s->accuracy = r->options.target == RT_TARGET_SCALAR_DOUBLE ? "reference" : "standard";
+    s->width = r->image.width;
+    s->height = r->image.height;
+    s->spheres = r->scene.sphere_count;
+    s->triangles = r->scene.triangle_count;
+    s->lights = r->scene.light_count;
+    s->materials = r->scene.material_count;
+    s->effects = rt_effects_of(&r->scene);
+    s->total = rt_clock_seconds() - r->start;
+    return rt_stats_write(s, &r->stats_file, &r->status) &&
+           rt_output_commit(&r->stats_file, &r->status);
+}
+
+static void catch_signals(void)
+{
+    struct sigaction action = {.sa_handler = on_signal};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+    /* A reader that has gone away is an error of write(), with a message and an exit code. */
+    action.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &action, NULL);
+}
+
+static bool render(run *r)
+{
+    catch_signals();
+    rt_scene_init(&r->scene);
+    /* A picture that differs is still written: it is what there is to look at. */
+    const bool drawn = read_scene(r) && open_outputs(r) && choose_device(r) && draw(r);
+    if (!drawn)
+        return false;
+    const bool verified = !r->options.verify || verify(r);
+    if (!verified && r->status.code != RT_DIFFERENT)
+        return false;
+    return write_picture(r) && write_stats(r) && verified;
+}
+
+static bool list_devices(run *r)
+{
+    if (!rt_device_list_read(&r->devices, &r->status))
+        return false;
+    if (r->devices.count == 0)
+        return rt_device_choose(&r->devices, NULL, &r->status) != NULL;
+    rt_device_list_print(&r->devices, stdout);
+    return true;
+}
+
+static bool act(run *r)
+{
+    switch (r->options.action) {
+    case RT_ACTION_HELP:
+        rt_options_help(stdout);
+        return true;
+    case RT_ACTION_VERSION:
+        printf("rt %s\n", RT_VERSION);
+        return true;
+    case RT_ACTION_GRAMMAR:
+        rt_scene_text_grammar(stdout);
+        return true;
+    case RT_ACTION_LIST:
+        return list_devices(r);
+    case RT_ACTION_RENDER:
+        break;
+    }
+    return render(r);
+}
+
+static void release(run *r)
+{
+    rt_renderer_free(r->renderer);
+    rt_output_discard(&r->picture);
+    rt_output_discard(&r->hits);
+    rt_output_discard(&r->stats_file);
+    rt_image_clear(&r->image);
+    rt_device_list_clear(&r->devices);
+    rt_scene_clear(&r->scene);
+    rt_status_clear(&r->status);
+}
+
+int main(int argc, char **argv)
+{
+    run r = {.picture = RT_OUTPUT_INIT,
+             .hits = RT_OUTPUT_INIT,
+             .stats_file = RT_OUTPUT_INIT,
+             .start = rt_clock_seconds()};
+    bool good = rt_options_read(&r.options, argc, argv, &r.status) && act(&r);
+    /* Text on standard output may still be in a buffer that a full disk refuses. */
+    if (fflush(stdout) != 0 || ferror(stdout))
+        good = rt_status_fail(&r.status, RT_ERROR_OUTPUT, "rt: cannot write standard output");
+    flush_messages(&r);
+    const enum rt_code code = good ? RT_OK : r.status.code;
+    release(&r);
+    return (int)code;
+}

@@ -1,0 +1,218 @@
+#define _GNU_SOURCE
+#include "options.h"
+
+#include <getopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "number.h"
+#include "render.h"
+#include "scene.h"
+
+enum {
+    OPTION_DEVICE = 'd',
+    OPTION_QUIET = 'q',
+    OPTION_HELP = 'h',
+    OPTION_LIST = 256,
+    OPTION_LANES,
+    OPTION_TILE,
+    OPTION_SIZE,
+    OPTION_HITS,
+    OPTION_VERIFY,
+    OPTION_STATS,
+    OPTION_GRAMMAR,
+    OPTION_VERSION
+};
+
+static const struct option long_options[] = {
+    {"device", required_argument, NULL, OPTION_DEVICE},
+    {"grammar", no_argument, NULL, OPTION_GRAMMAR},
+    {"help", no_argument, NULL, OPTION_HELP},
+    {"hits", required_argument, NULL, OPTION_HITS},
+    {"lanes", required_argument, NULL, OPTION_LANES},
+    {"list-devices", no_argument, NULL, OPTION_LIST},
+    {"quiet", no_argument, NULL, OPTION_QUIET},
+    {"size", required_argument, NULL, OPTION_SIZE},
+    {"stats", required_argument, NULL, OPTION_STATS},
+    {"tile", required_argument, NULL, OPTION_TILE},
+    {"verify", no_argument, NULL, OPTION_VERIFY},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {NULL, 0, NULL, 0}};
+
+void rt_options_help(FILE *out)
+{
+    fputs("Usage: rt [OPTION]... SCENE OUTPUT\n"
+          "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
+          "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
+          "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
+          "be left out with --verify, --hits or --stats.\n"
+          "\n"
+          "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
+          "                       accelerator, any part of a name, scalar (plain C in float) or\n"
+          "                       scalar-double; by default RT_DEVICE, else the first GPU, else\n"
+          "                       the first CPU\n"
+          "      --grammar        print the scene format as a table and exit\n"
+          "  -h, --help           print this help and exit\n"
+          "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
+          "      --lanes=N        rays a work-item traces: 1, 4, 8 or 16; by default the device's\n"
+          "                       native float width, 1 on a GPU\n"
+          "      --list-devices   list the OpenCL devices and exit\n"
+          "  -q, --quiet          print errors only\n"
+          "      --size=WxH       picture size in pixels, whatever the scene says\n"
+          "      --stats=FILE     write what was done and how long it took as JSON (- for\n"
+          "                       standard output)\n"
+          "      --tile=N         side of the tiles that the picture is rendered in, in pixels\n"
+          "      --verify         render with the scalar path too and compare\n"
+          "      --version        print the version and exit\n"
+          "\n"
+          "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
+          "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
+          "130 interrupted.\n",
+          out);
+}
+
+static bool fail(rt_status *status, const char *option, const char *value, const char *expected)
+{
+    return rt_status_fail(status, RT_ERROR_USAGE, "rt: found '%s'; %s takes %s", value, option,
+                          expected);
+}
+
+static bool read_whole(const char *text, size_t length, int64_t low, int64_t high, int *out)
+{
+    int64_t value = 0;
+    if (rt_number_int(text, length, &value) != RT_NUMBER_OK || value < low || value > high)
+        return false;
+    *out = (int)value;
+    return true;
+}
+
+static bool read_size(rt_options *options, const char *text, rt_status *status)
+{
+    const char *x = strchr(text, 'x');
+    if (!x || !read_whole(text, (size_t)(x - text), 1, RT_IMAGE_SIDE_MAX, &options->width) ||
+        !read_whole(x + 1, strlen(x + 1), 1, RT_IMAGE_SIDE_MAX, &options->height) ||
+        (int64_t)options->width * options->height > RT_IMAGE_PIXELS_MAX)
+        return fail(status, "--size", text,
+                    "WxH, such as 640x480, each from 1 to 65535, at most 268435456 pixels in all");
+    return true;
+}
+
+static bool read_lanes(rt_options *options, const char *text, rt_status *status)
+{
+    int lanes = 0;
+    if (!read_whole(text, strlen(text), 1, 16, &lanes) ||
+        (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16))
+        return fail(status, "--lanes", text, "1, 4, 8 or 16");
+    options->lanes = lanes;
+    return true;
+}
+
+static void read_device(rt_options *options, const char *text)
+{
+    options->device = text;
+    options->target = RT_TARGET_DEVICE;
+    if (strcasecmp(text, "scalar") == 0)
+        options->target = RT_TARGET_SCALAR;
+    else if (strcasecmp(text, "scalar-double") == 0)
+        options->target = RT_TARGET_SCALAR_DOUBLE;
+}
+
+static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
+{
+    switch (code) {
+    case OPTION_DEVICE:
+        read_device(options, value);
+        return *value || fail(status, "--device", value, "the name or index of a device");
+    case OPTION_LANES:
+        return read_lanes(options, value, status);
+    case OPTION_TILE:
+        return read_whole(value, strlen(value), 1, RT_TILE_MAX, &options->tile) ||
+               fail(status, "--tile", value, "a whole number from 1 to 4096");
+    case OPTION_SIZE:
+        return read_size(options, value, status);
+    case OPTION_HITS:
+        options->hits = value;
+        return true;
+    case OPTION_STATS:
+        options->stats = value;
+        return true;
+    case OPTION_VERIFY:
+        options->verify = true;
+        return true;
+    case OPTION_QUIET:
+        options->quiet = true;
+        return true;
+    case OPTION_LIST:
+        options->action = RT_ACTION_LIST;
+        return true;
+    case OPTION_GRAMMAR:
+        options->action = RT_ACTION_GRAMMAR;
+        return true;
+    case OPTION_HELP:
+        options->action = RT_ACTION_HELP;
+        return true;
+    case OPTION_VERSION:
+        options->action = RT_ACTION_VERSION;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool fail_usage(rt_status *status, const char *message, const char *what)
+{
+    return rt_status_fail(status, RT_ERROR_USAGE, "rt: %s%s; try 'rt --help'", message, what);
+}
+
+/* What options mean together. */
+static bool check(rt_options *o, rt_status *status)
+{
+    if (!o->scene)
+        return fail_usage(status, "no scene is given", "");
+    if (!o->output && !o->verify && !o->hits && !o->stats)
+        return fail_usage(status, "no output is given", "");
+    if (o->output && o->format == RT_IMAGE_UNKNOWN)
+        return rt_status_fail(status, RT_ERROR_USAGE,
+                              "rt: '%s' does not end in .png, .bmp, .tga, .jpg or .hdr", o->output);
+    const char *const outputs[] = {o->output, o->hits, o->stats};
+    int to_stdout = 0;
+    for (size_t i = 0; i < 3; ++i)
+        to_stdout += outputs[i] && strcmp(outputs[i], "-") == 0;
+    if (to_stdout > 1 || (to_stdout == 1 && o->verify))
+        return fail_usage(status, "only one thing can go to standard output", "");
+    if (o->verify && o->target != RT_TARGET_DEVICE)
+        return fail_usage(status, "--verify holds a device against the scalar path; choose one", "");
+    return true;
+}
+
+bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *status)
+{
+    *options = (rt_options){.format = RT_IMAGE_UNKNOWN};
+    const char *environment = getenv("RT_DEVICE");
+    if (environment && *environment)
+        read_device(options, environment);
+    opterr = 0;
+    optind = 1;
+    for (;;) {
+        const int code = getopt_long(argc, argv, ":d:hq", long_options, NULL);
+        if (code == -1)
+            break;
+        if (code == ':')
+            return fail_usage(status, "a value is missing after ", argv[optind - 1]);
+        if (code == '?')
+            return fail_usage(status, "cannot make sense of ", argv[optind - 1]);
+        if (!read_option(options, code, optarg, status))
+            return false;
+        if (options->action != RT_ACTION_RENDER)
+            return true;
+    }
+    if (argc - optind > 2)
+        return fail_usage(status, "one argument too many: ", argv[optind + 2]);
+    if (optind < argc)
+        options->scene = argv[optind];
+    if (optind + 1 < argc) {
+        options->output = argv[optind + 1];
+        options->format = rt_image_format_of(options->output);
+    }
+    return check(options, status);
+}

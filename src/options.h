@@ -1,0 +1,38 @@
+/* The command line. */
+#ifndef RT_OPTIONS_H
+#define RT_OPTIONS_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "image.h"
+#include "status.h"
+
+#define RT_VERSION "0.1.0"
+
+enum rt_action { RT_ACTION_RENDER, RT_ACTION_HELP, RT_ACTION_VERSION, RT_ACTION_LIST, RT_ACTION_GRAMMAR };
+
+enum rt_target { RT_TARGET_DEVICE, RT_TARGET_SCALAR, RT_TARGET_SCALAR_DOUBLE };
+
+/* All strings are the caller's argv or environment. */
+typedef struct rt_options {
+    enum rt_action action;
+    const char *scene;  /* "-" for standard input */
+    const char *output; /* NULL where no picture is asked for; "-" for standard output */
+    enum rt_image_format format;
+    enum rt_target target;
+    const char *device; /* selector, or NULL for the default */
+    const char *hits, *stats;
+    int width, height; /* 0 where the scene decides */
+    int lanes, tile;   /* 0 for the default */
+    bool verify, quiet;
+} rt_options;
+
+/* Reads argv and the environment variable RT_DEVICE. On misuse returns false with code
+ * RT_ERROR_USAGE. */
+bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *status);
+
+/* Prints the text of `--help`. */
+void rt_options_help(FILE *out);
+
+#endif

@@ -1,0 +1,106 @@
+#define _GNU_SOURCE
+#include "program.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file.h"
+#include "kernel_text.h"
+
+enum rt_rounding rt_program_rounding(const rt_device *device)
+{
+    if (device->rounds_divide_sqrt)
+        return RT_ROUNDING_DEVICE;
+    return device->has_fp64 ? RT_ROUNDING_DOUBLE : RT_ROUNDING_FMA;
+}
+
+void rt_program_options(const rt_effects *effects, int lanes, enum rt_rounding rounding,
+                        char *options)
+{
+    snprintf(options, RT_PROGRAM_OPTIONS_SIZE,
+             "-cl-std=CL1.2%s -DRT_LANES=%d -DRT_SPHERES=%d -DRT_TRIANGLES=%d -DRT_CULL=%d "
+             "-DRT_SMOOTH=%d -DRT_SHININESS_BITS=%d -DRT_SHININESS_FRACTION=%d -DRT_ROUNDING=%d",
+             rounding == RT_ROUNDING_DEVICE ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", lanes,
+             effects->has_spheres, effects->has_triangles, effects->cull_sign,
+             effects->on[RT_EFFECT_SMOOTH_NORMALS], effects->exponent_bits,
+             effects->has_fractional_exponent, (int)rounding);
+}
+
+/* The files of RT_KERNELS, each behind a #line like the embedded ones; NULL after an error. */
+static char *read_folder(const char *folder, size_t *length, rt_status *status)
+{
+    char *all = NULL;
+    *length = 0;
+    FILE *stream = open_memstream(&all, length);
+    if (!stream) {
+        rt_status_no_memory(status, "kernels");
+        return NULL;
+    }
+    bool good = true;
+    for (const char *const *name = rt_kernel_names; good && *name; ++name) {
+        char *path = NULL;
+        rt_file_text text = {NULL, 0};
+        if (asprintf(&path, "%s/%s", folder, *name) < 0) {
+            good = rt_status_no_memory(status, "kernels");
+            break;
+        }
+        const char *reason = rt_file_read(path, &text);
+        if (reason)
+            good = rt_status_fail(status, RT_ERROR_DEVICE, "rt: cannot read '%s': %s", path, reason);
+        else
+            fprintf(stream, "#line 1 \"%s\"\n%s\n", path, text.bytes);
+        rt_file_free(&text);
+        free(path);
+    }
+    if (fclose(stream) != 0)
+        good = rt_status_no_memory(status, "kernels");
+    if (good)
+        return all;
+    free(all);
+    return NULL;
+}
+
+static void report_failure(cl_program program, const rt_device *device, const char *options,
+                           rt_status *status)
+{
+    size_t size = 0;
+    char *log = NULL;
+    if (clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, 0, NULL, &size) ==
+            CL_SUCCESS &&
+        (log = calloc(size + 1, 1)) != NULL)
+        clGetProgramBuildInfo(program, device->id, CL_PROGRAM_BUILD_LOG, size, log, NULL);
+    rt_status_fail(status, RT_ERROR_DEVICE,
+                   "rt: the kernels do not build\ndevice: %s\ndriver: %s\noptions: %s\nlog:\n%s",
+                   device->name, device->driver, options, log ? log : "none");
+    free(log);
+}
+
+cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
+                            rt_status *status)
+{
+    const char *folder = getenv("RT_KERNELS");
+    char *read = NULL;
+    const char *text = rt_kernel_text;
+    size_t length = rt_kernel_text_length;
+    if (folder && *folder) {
+        read = read_folder(folder, &length, status);
+        if (!read)
+            return NULL;
+        text = read;
+    }
+    cl_int error = CL_SUCCESS;
+    cl_program program = clCreateProgramWithSource(context, 1, &text, &length, &error);
+    free(read);
+    if (!RT_CL_MADE(error, "clCreateProgramWithSource", status))
+        return NULL;
+    error = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+    if (error == CL_SUCCESS)
+        return program;
+    if (error == CL_BUILD_PROGRAM_FAILURE)
+        report_failure(program, device, options, status);
+    else
+        RT_CL_MADE(error, "clBuildProgram", status);
+    clReleaseProgram(program);
+    return NULL;
+}

@@ -1,0 +1,463 @@
+#include "render.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cl.h"
+#include "clock.h"
+#include "program.h"
+
+/* Tiles whose commands may be in the queue at a time: one runs while the host prepares another. */
+#define TILES_IN_FLIGHT 2
+/* Commands of a tile that are timed: the stages, and the reads of colours and of hits. */
+#define EVENTS_PER_TILE (RT_STAGE_COUNT + 2)
+
+enum event_slot { EVENT_READ_COLORS = RT_STAGE_COUNT, EVENT_READ_HITS };
+
+typedef struct flight {
+    cl_event events[EVENTS_PER_TILE]; /* NULL where there was no such command */
+    bool busy;
+} flight;
+
+/* Scene arrays on the device. */
+typedef struct scene_buffers {
+    cl_mem spheres, triangles, materials_of, normals_of, normals, materials, lights;
+} scene_buffers;
+
+/* Arrays between the stages, for one tile. */
+typedef struct tile_buffers {
+    cl_mem rays, hit_index, hit_array, colors, picture, records;
+} tile_buffers;
+
+struct rt_renderer {
+    cl_context context;
+    cl_command_queue queue;
+    cl_program program;
+    cl_kernel kernels[RT_STAGE_COUNT];
+    scene_buffers scene;
+    tile_buffers tile;
+    cl_int stride; /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
+    int tile_side, lanes;
+    int width, height;
+    bool with_hits;
+    float *staging; /* owned: stride values, for rt_renderer_trace */
+    flight flights[TILES_IN_FLIGHT];
+    rt_render_times times;
+};
+
+static const struct {
+    const char *name, *kernel;
+} stages[RT_STAGE_COUNT] = {
+    [RT_STAGE_CAMERA] = {"camera", "rt_camera"},    [RT_STAGE_TRACE] = {"trace", "rt_trace"},
+    [RT_STAGE_SHADE] = {"shade", "rt_shade"},       [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve"},
+    [RT_STAGE_HITS] = {"hits", "rt_resolve_hits"},
+};
+
+const char *rt_stage_name(enum rt_stage stage)
+{
+    return stages[stage].name;
+}
+
+int rt_renderer_lanes(const rt_renderer *renderer)
+{
+    return renderer->lanes;
+}
+
+const rt_render_times *rt_renderer_times(const rt_renderer *renderer)
+{
+    return &renderer->times;
+}
+
+/* Seconds that a finished command ran; 0 where the device does not tell. */
+static double event_seconds(cl_event event)
+{
+    cl_ulong start = 0, end = 0;
+    if (clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, NULL) !=
+            CL_SUCCESS ||
+        clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL) !=
+            CL_SUCCESS ||
+        end < start)
+        return 0.0;
+    return 1e-9 * (double)(end - start);
+}
+
+/* A buffer that holds at least one byte, since OpenCL has no empty ones. */
+static bool make_buffer(rt_renderer *r, cl_mem_flags flags, size_t size, cl_mem *buffer,
+                        rt_status *status)
+{
+    cl_int error = CL_SUCCESS;
+    *buffer = clCreateBuffer(r->context, flags, size ? size : 1, NULL, &error);
+    return RT_CL_MADE(error, "clCreateBuffer", status);
+}
+
+static bool upload(rt_renderer *r, const void *bytes, size_t size, cl_mem *buffer,
+                   rt_status *status)
+{
+    return make_buffer(r, CL_MEM_READ_ONLY, size, buffer, status) &&
+           (size == 0 || RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, size, bytes, 0,
+                                                    NULL, NULL),
+                               status));
+}
+
+/* One array of material indices for all primitives, spheres first. */
+static bool upload_material_indices(rt_renderer *r, const rt_scene *scene, rt_status *status)
+{
+    const size_t spheres = scene->sphere_count * sizeof *scene->sphere_materials;
+    const size_t triangles = scene->triangle_count * sizeof *scene->triangle_materials;
+    cl_mem *buffer = &r->scene.materials_of;
+    return make_buffer(r, CL_MEM_READ_ONLY, spheres + triangles, buffer, status) &&
+           (spheres == 0 || RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, spheres,
+                                                       scene->sphere_materials, 0, NULL, NULL),
+                                  status)) &&
+           (triangles == 0 ||
+            RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, spheres, triangles,
+                                       scene->triangle_materials, 0, NULL, NULL),
+                  status));
+}
+
+static bool upload_scene(rt_renderer *r, const rt_scene *scene, rt_status *status)
+{
+    scene_buffers *b = &r->scene;
+    /* Without vertex normals the kernels do not read the records' indices. */
+    const size_t records = scene->normal_count ? scene->triangle_count : 0;
+    const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
+    return upload(r, scene->spheres, scene->sphere_count * sizeof *scene->spheres, &b->spheres,
+                  status) &&
+           upload(r, scene->triangles, scene->triangle_count * sizeof *scene->triangles,
+                  &b->triangles, status) &&
+           upload_material_indices(r, scene, status) &&
+           upload(r, scene->triangle_normals, records * sizeof *scene->triangle_normals,
+                  &b->normals_of, status) &&
+           upload(r, scene->normals, normals * sizeof *scene->normals, &b->normals, status) &&
+           upload(r, scene->materials, scene->material_count * sizeof *scene->materials,
+                  &b->materials, status) &&
+           upload(r, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights, status);
+}
+
+static bool make_tile_buffers(rt_renderer *r, rt_status *status)
+{
+    const size_t rays = (size_t)r->stride;
+    tile_buffers *b = &r->tile;
+    return make_buffer(r, CL_MEM_READ_WRITE, rays * RT_RAY_COMPONENTS * sizeof(float), &b->rays,
+                       status) &&
+           make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_index, status) &&
+           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_HIT_COMPONENTS * sizeof(float),
+                       &b->hit_array, status) &&
+           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float),
+                       &b->colors, status) &&
+           make_buffer(r, CL_MEM_WRITE_ONLY, rays * RT_COLOR_COMPONENTS * sizeof(float),
+                       &b->picture, status) &&
+           make_buffer(r, CL_MEM_WRITE_ONLY, r->with_hits ? rays * sizeof(rt_hit) : 0, &b->records,
+                       status);
+}
+
+typedef struct argument {
+    const void *value;
+    size_t size;
+} argument;
+
+#define ARGUMENT(value) ((argument){&(value), sizeof(value)})
+#define SET_ARGUMENTS(kernel, status, ...)                                                         \
+    set_arguments(kernel, (const argument[]){__VA_ARGS__},                                         \
+                  sizeof((const argument[]){__VA_ARGS__}) / sizeof(argument), status)
+
+static bool set_arguments(cl_kernel kernel, const argument *arguments, size_t count,
+                          rt_status *status)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (!RT_CL(clSetKernelArg(kernel, (cl_uint)i, arguments[i].size, arguments[i].value),
+                   status))
+            return false;
+    return true;
+}
+
+static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *status)
+{
+    for (int i = 0; i < RT_STAGE_COUNT; ++i) {
+        cl_int error = CL_SUCCESS;
+        if (i == RT_STAGE_HITS && !r->with_hits)
+            continue;
+        r->kernels[i] = clCreateKernel(r->program, stages[i].kernel, &error);
+        if (!RT_CL_MADE(error, "clCreateKernel", status))
+            return false;
+    }
+    const rt_frame frame = rt_scene_frame(scene);
+    const rt_tile tile = {0, 0, 0, 0}; /* set for each tile */
+    const rt_surround surround = {scene->background.x, scene->background.y, scene->background.z,
+                                  scene->ambient.x,    scene->ambient.y,    scene->ambient.z};
+    const cl_int spheres = (cl_int)scene->sphere_count;
+    const cl_int triangles = (cl_int)scene->triangle_count;
+    const cl_int lights = (cl_int)scene->light_count;
+    const cl_int stride = r->stride;
+    const scene_buffers *s = &r->scene;
+    const tile_buffers *t = &r->tile;
+    return SET_ARGUMENTS(r->kernels[RT_STAGE_CAMERA], status, ARGUMENT(frame), ARGUMENT(tile),
+                         ARGUMENT(stride), ARGUMENT(t->rays)) &&
+           SET_ARGUMENTS(r->kernels[RT_STAGE_TRACE], status, ARGUMENT(stride), ARGUMENT(t->rays),
+                         ARGUMENT(s->spheres), ARGUMENT(spheres), ARGUMENT(s->triangles),
+                         ARGUMENT(triangles), ARGUMENT(t->hit_index), ARGUMENT(t->hit_array)) &&
+           SET_ARGUMENTS(r->kernels[RT_STAGE_SHADE], status, ARGUMENT(stride), ARGUMENT(t->rays),
+                         ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(s->spheres),
+                         ARGUMENT(spheres), ARGUMENT(s->triangles), ARGUMENT(s->materials_of),
+                         ARGUMENT(s->normals_of), ARGUMENT(s->normals), ARGUMENT(s->materials),
+                         ARGUMENT(s->lights), ARGUMENT(lights), ARGUMENT(surround),
+                         ARGUMENT(t->colors)) &&
+           SET_ARGUMENTS(r->kernels[RT_STAGE_RESOLVE], status, ARGUMENT(tile), ARGUMENT(stride),
+                         ARGUMENT(t->colors), ARGUMENT(t->picture)) &&
+           (!r->with_hits ||
+            SET_ARGUMENTS(r->kernels[RT_STAGE_HITS], status, ARGUMENT(tile), ARGUMENT(stride),
+                          ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(t->records)));
+}
+
+static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, rt_status *status)
+{
+    const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
+                                                (cl_context_properties)device->platform, 0};
+    cl_int error = CL_SUCCESS;
+    double start = rt_clock_seconds();
+    r->context = clCreateContext(properties, 1, &device->id, NULL, NULL, &error);
+    if (!RT_CL_MADE(error, "clCreateContext", status))
+        return false;
+    r->queue = clCreateCommandQueue(r->context, device->id, CL_QUEUE_PROFILING_ENABLE, &error);
+    if (!RT_CL_MADE(error, "clCreateCommandQueue", status))
+        return false;
+    const rt_effects effects = rt_effects_of(scene);
+    char options[RT_PROGRAM_OPTIONS_SIZE];
+    rt_program_options(&effects, r->lanes, rt_program_rounding(device), options);
+    r->program = rt_program_build(r->context, device, options, status);
+    if (!r->program)
+        return false;
+    r->times.program = rt_clock_seconds() - start;
+    start = rt_clock_seconds();
+    if (!upload_scene(r, scene, status) || !make_tile_buffers(r, status))
+        return false;
+    r->times.upload = rt_clock_seconds() - start;
+    return make_kernels(r, scene, status);
+}
+
+static int round_up(int value, int multiple)
+{
+    return (value + multiple - 1) / multiple * multiple;
+}
+
+rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
+                             const rt_render_options *options, rt_status *status)
+{
+    rt_renderer *r = calloc(1, sizeof *r);
+    if (!r) {
+        rt_status_no_memory(status, "the renderer");
+        return NULL;
+    }
+    r->lanes = options->lanes ? options->lanes : rt_device_lanes(device);
+    r->tile_side = options->tile ? options->tile : RT_TILE_DEFAULT;
+    r->width = scene->width;
+    r->height = scene->height;
+    r->with_hits = options->with_hits;
+    const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
+    r->stride = side * side;
+    r->staging = malloc((size_t)r->stride * sizeof *r->staging);
+    const bool good =
+        r->staging ? build(r, device, scene, status) : rt_status_no_memory(status, "the renderer");
+    if (good)
+        return r;
+    rt_renderer_free(r);
+    return NULL;
+}
+
+static void release_events(flight *f)
+{
+    for (int i = 0; i < EVENTS_PER_TILE; ++i)
+        if (f->events[i])
+            clReleaseEvent(f->events[i]);
+    *f = (flight){{NULL}, false};
+}
+
+void rt_renderer_free(rt_renderer *r)
+{
+    if (!r)
+        return;
+    if (r->queue)
+        clFinish(r->queue);
+    for (int i = 0; i < TILES_IN_FLIGHT; ++i)
+        release_events(&r->flights[i]);
+    for (int i = 0; i < RT_STAGE_COUNT; ++i)
+        if (r->kernels[i])
+            clReleaseKernel(r->kernels[i]);
+    const cl_mem buffers[] = {
+        r->scene.spheres, r->scene.triangles, r->scene.materials_of, r->scene.normals_of,
+        r->scene.normals, r->scene.materials, r->scene.lights,       r->tile.rays,
+        r->tile.hit_index, r->tile.hit_array, r->tile.colors,        r->tile.picture,
+        r->tile.records};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
+        if (buffers[i])
+            clReleaseMemObject(buffers[i]);
+    if (r->program)
+        clReleaseProgram(r->program);
+    if (r->queue)
+        clReleaseCommandQueue(r->queue);
+    if (r->context)
+        clReleaseContext(r->context);
+    free(r->staging);
+    free(r);
+}
+
+/* One stage over `rays` rays, a multiple of RT_BLOCK_RAYS. A work-group is a block of rays at every
+ * lane width; the kernels say so themselves too. */
+static bool launch(rt_renderer *r, enum rt_stage stage, size_t rays, cl_event *event,
+                   rt_status *status)
+{
+    const size_t rays_per_item = stage == RT_STAGE_TRACE ? (size_t)r->lanes : 1;
+    const size_t global = rays / rays_per_item;
+    const size_t local = RT_BLOCK_RAYS / rays_per_item;
+    r->times.launches[stage]++;
+    return RT_CL(clEnqueueNDRangeKernel(r->queue, r->kernels[stage], 1, NULL, &global, &local, 0,
+                                        NULL, event),
+                 status);
+}
+
+/* Reads a tile's rows into their place in a picture of `size`-byte pixels. */
+static bool read_tile(rt_renderer *r, cl_mem buffer, const rt_tile *tile, void *pixels, size_t size,
+                      cl_event *event, rt_status *status)
+{
+    const size_t source[3] = {0, 0, 0};
+    const size_t target[3] = {(size_t)tile->x * size, (size_t)tile->y, 0};
+    const size_t region[3] = {(size_t)tile->width * size, (size_t)tile->height, 1};
+    return RT_CL(clEnqueueReadBufferRect(r->queue, buffer, CL_FALSE, source, target, region,
+                                         region[0], 0, (size_t)r->width * size, 0, pixels, 0, NULL,
+                                         event),
+                 status);
+}
+
+/* Queues all stages of a tile. */
+static bool start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, flight *f,
+                       rt_status *status)
+{
+    const size_t rays = (size_t)round_up(tile->width, RT_BLOCK_SIDE) *
+                        (size_t)round_up(tile->height, RT_BLOCK_SIDE);
+    const bool hits = image->hits != NULL;
+    f->busy = true;
+    r->times.primary_rays += (size_t)tile->width * (size_t)tile->height;
+    if (!RT_CL(clSetKernelArg(r->kernels[RT_STAGE_CAMERA], 1, sizeof *tile, tile), status) ||
+        !RT_CL(clSetKernelArg(r->kernels[RT_STAGE_RESOLVE], 0, sizeof *tile, tile), status) ||
+        (hits && !RT_CL(clSetKernelArg(r->kernels[RT_STAGE_HITS], 0, sizeof *tile, tile), status)))
+        return false;
+    for (int stage = 0; stage < RT_STAGE_COUNT; ++stage)
+        if ((stage != RT_STAGE_HITS || hits) &&
+            !launch(r, (enum rt_stage)stage, rays, &f->events[stage], status))
+            return false;
+    if (!read_tile(r, r->tile.picture, tile, image->rgb, 3 * sizeof *image->rgb,
+                   &f->events[EVENT_READ_COLORS], status) ||
+        (hits && !read_tile(r, r->tile.records, tile, image->hits, sizeof *image->hits,
+                            &f->events[EVENT_READ_HITS], status)))
+        return false;
+    return RT_CL(clFlush(r->queue), status);
+}
+
+/* Waits for a tile and takes its times. */
+static bool finish_tile(rt_renderer *r, flight *f, rt_status *status)
+{
+    if (!f->busy)
+        return true;
+    cl_event queued[EVENTS_PER_TILE];
+    cl_uint count = 0;
+    for (int i = 0; i < EVENTS_PER_TILE; ++i)
+        if (f->events[i])
+            queued[count++] = f->events[i];
+    const bool good = count == 0 || RT_CL(clWaitForEvents(count, queued), status);
+    for (int i = 0; good && i < EVENTS_PER_TILE; ++i)
+        if (f->events[i])
+            *(i < RT_STAGE_COUNT ? &r->times.stages[i] : &r->times.readback) +=
+                event_seconds(f->events[i]);
+    release_events(f);
+    return good;
+}
+
+static bool finish_all(rt_renderer *r, rt_status *status)
+{
+    bool good = true;
+    for (int i = 0; i < TILES_IN_FLIGHT; ++i)
+        good = finish_tile(r, &r->flights[i], status) && good;
+    return good;
+}
+
+bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt_status *status)
+{
+    const int side = r->tile_side;
+    const int columns = (r->width + side - 1) / side;
+    const int tiles = columns * ((r->height + side - 1) / side);
+    bool good = true;
+    for (int i = 0; good && i < tiles; ++i) {
+        flight *f = &r->flights[i % TILES_IN_FLIGHT];
+        rt_tile tile = {i % columns * side, i / columns * side, side, side};
+        if (tile.width > r->width - tile.x)
+            tile.width = r->width - tile.x;
+        if (tile.height > r->height - tile.y)
+            tile.height = r->height - tile.y;
+        good = finish_tile(r, f, status);
+        if (good && !rt_watch_tick(watch, (double)i / tiles))
+            good = rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
+        good = good && start_tile(r, &tile, image, f, status);
+    }
+    return finish_all(r, status) && good;
+}
+
+/* Component `c` of `count` rays; the rest of the last block ends before it begins. */
+static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, size_t padded,
+                            size_t c, rt_status *status)
+{
+    for (size_t i = 0; i < padded; ++i) {
+        const rt_ray *ray = &rays[i < count ? i : count - 1];
+        r->staging[i] = c < RT_RAY_DX     ? ray->origin[c]
+                        : c < RT_RAY_TMIN ? ray->direction[c - RT_RAY_DX]
+                        : c == RT_RAY_TMIN ? ray->tmin
+                        : i < count        ? ray->tmax
+                                           : -1.0f;
+    }
+    return RT_CL(clEnqueueWriteBuffer(r->queue, r->tile.rays, CL_TRUE,
+                                      c * (size_t)r->stride * sizeof *r->staging,
+                                      padded * sizeof *r->staging, r->staging, 0, NULL, NULL),
+                 status);
+}
+
+static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
+                       rt_status *status)
+{
+    const size_t padded = (count + RT_BLOCK_RAYS - 1) / RT_BLOCK_RAYS * RT_BLOCK_RAYS;
+    for (size_t c = 0; c < RT_RAY_COMPONENTS; ++c)
+        if (!stage_component(r, rays, count, padded, c, status))
+            return false;
+    flight *f = &r->flights[0];
+    f->busy = true;
+    if (!launch(r, RT_STAGE_TRACE, padded, &f->events[RT_STAGE_TRACE], status) ||
+        !finish_tile(r, f, status))
+        return false;
+    if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile.hit_index, CL_TRUE, 0,
+                                   count * sizeof *r->staging, r->staging, 0, NULL, NULL),
+               status))
+        return false;
+    for (size_t i = 0; i < count; ++i)
+        memcpy(&hits[i].primitive, &r->staging[i], sizeof hits[i].primitive);
+    for (size_t c = 0; c < RT_HIT_COMPONENTS; ++c) {
+        if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile.hit_array, CL_TRUE,
+                                       c * (size_t)r->stride * sizeof *r->staging,
+                                       count * sizeof *r->staging, r->staging, 0, NULL, NULL),
+                   status))
+            return false;
+        for (size_t i = 0; i < count; ++i)
+            *(c == RT_HIT_T ? &hits[i].t : c == RT_HIT_U ? &hits[i].u : &hits[i].v) = r->staging[i];
+    }
+    return true;
+}
+
+bool rt_renderer_trace(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
+                       rt_status *status)
+{
+    const size_t most = (size_t)r->stride;
+    for (size_t done = 0; done < count; done += most) {
+        const size_t part = count - done < most ? count - done : most;
+        if (!trace_part(r, rays + done, part, hits + done, status))
+            return false;
+    }
+    return true;
+}

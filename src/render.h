@@ -1,0 +1,65 @@
+/* The renderer: a scene on a device, launched tile by tile in the stages of kernels/. */
+#ifndef RT_RENDER_H
+#define RT_RENDER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "device.h"
+#include "effects.h"
+#include "image.h"
+#include "scalar.h"
+#include "scene.h"
+#include "watch.h"
+
+#define RT_TILE_DEFAULT 256
+#define RT_TILE_MAX 4096
+
+typedef struct rt_render_options {
+    int lanes;      /* rays a work-item: 1, 4, 8, 16, or 0 for what suits the device */
+    int tile;       /* side of a tile in pixels, 1 to RT_TILE_MAX, or 0 for the default */
+    bool with_hits; /* whether rt_renderer_draw may be asked for hit records */
+} rt_render_options;
+
+enum rt_stage {
+    RT_STAGE_CAMERA,
+    RT_STAGE_TRACE,
+    RT_STAGE_SHADE,
+    RT_STAGE_RESOLVE,
+    RT_STAGE_HITS, /* hit records into rows; only where they are asked for */
+    RT_STAGE_COUNT
+};
+
+/* Seconds by the device's own clock (0 where it has none), and rays, added up since the renderer
+ * was made. `program` and `upload` are of the making. */
+typedef struct rt_render_times {
+    double program, upload, readback;
+    double stages[RT_STAGE_COUNT];
+    size_t launches[RT_STAGE_COUNT];
+    size_t primary_rays;
+} rt_render_times;
+
+typedef struct rt_renderer rt_renderer;
+
+/* Builds the kernels for the scene and uploads its arrays. The scene may be cleared afterwards.
+ * Returns NULL after an error, with code RT_ERROR_DEVICE. */
+rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
+                             const rt_render_options *options, rt_status *status);
+void rt_renderer_free(rt_renderer *renderer);
+
+/* Renders the picture, whose size must be the scene's; hit records are filled in where the picture
+ * has room for them. Stops with code RT_INTERRUPTED between tiles when the watch says so. */
+bool rt_renderer_draw(rt_renderer *renderer, rt_image *image, const rt_watch *watch,
+                      rt_status *status);
+
+/* The nearest hits of `count` rays, through the trace kernel that renders. */
+bool rt_renderer_trace(rt_renderer *renderer, const rt_ray *rays, size_t count, rt_hit *hits,
+                       rt_status *status);
+
+int rt_renderer_lanes(const rt_renderer *renderer);
+const rt_render_times *rt_renderer_times(const rt_renderer *renderer);
+
+/* "camera", "trace", ... */
+const char *rt_stage_name(enum rt_stage stage);
+
+#endif

@@ -1,0 +1,230 @@
+#include "scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "array.h"
+
+void rt_scene_init(rt_scene *scene)
+{
+    *scene = (rt_scene){0};
+    scene->width = scene->height = 512;
+    scene->camera.at = (rt_vec3){0.0f, 0.0f, -1.0f};
+    scene->camera.up = (rt_vec3){0.0f, 1.0f, 0.0f};
+    scene->camera.vfov = 90.0f;
+}
+
+void rt_scene_clear(rt_scene *scene)
+{
+    for (size_t i = 0; i < scene->file_count; ++i)
+        free(scene->files[i]);
+    free(scene->files);
+    free(scene->lights);
+    free(scene->materials);
+    free(scene->spheres);
+    free(scene->sphere_materials);
+    free(scene->triangles);
+    free(scene->triangle_materials);
+    free(scene->triangle_normals);
+    free(scene->normals);
+    *scene = (rt_scene){0};
+}
+
+bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status)
+{
+    if (!RT_ARRAY_GROW(scene->lights, scene->light_count, &scene->light_capacity))
+        return rt_status_no_memory(status, "lights");
+    scene->lights[scene->light_count++] = *light;
+    return true;
+}
+
+bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status)
+{
+    if (!RT_ARRAY_GROW(scene->materials, scene->material_count, &scene->material_capacity))
+        return rt_status_no_memory(status, "materials");
+    scene->materials[scene->material_count++] = *material;
+    return true;
+}
+
+static bool has_free_index(const rt_scene *scene, rt_status *status)
+{
+    if (scene->sphere_count + scene->triangle_count < INT32_MAX)
+        return true;
+    return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
+}
+
+bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
+                         rt_status *status)
+{
+    if (!has_free_index(scene, status))
+        return false;
+    /* Two arrays grow in step: the capacity moves once both have. */
+    size_t capacity = scene->sphere_capacity;
+    if (!RT_ARRAY_GROW(scene->spheres, scene->sphere_count, &capacity))
+        return rt_status_no_memory(status, "spheres");
+    capacity = scene->sphere_capacity;
+    if (!RT_ARRAY_GROW(scene->sphere_materials, scene->sphere_count, &capacity))
+        return rt_status_no_memory(status, "spheres");
+    scene->sphere_capacity = capacity;
+    scene->spheres[scene->sphere_count] = *sphere;
+    scene->sphere_materials[scene->sphere_count++] = material;
+    return true;
+}
+
+static bool add_normals(rt_scene *scene, const float *normals)
+{
+    size_t capacity = scene->normal_capacity * RT_NORMAL_COMPONENTS;
+    const size_t used = scene->normal_count * RT_NORMAL_COMPONENTS;
+    if (used + RT_NORMAL_COMPONENTS > capacity) {
+        capacity = scene->normal_capacity ? 2 * scene->normal_capacity : 64;
+        float *grown =
+            realloc(scene->normals, capacity * RT_NORMAL_COMPONENTS * sizeof *scene->normals);
+        if (!grown)
+            return false;
+        scene->normals = grown;
+        scene->normal_capacity = capacity;
+    }
+    memcpy(scene->normals + used, normals, RT_NORMAL_COMPONENTS * sizeof *normals);
+    scene->normal_count++;
+    return true;
+}
+
+bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
+                           int32_t material, rt_status *status)
+{
+    if (!has_free_index(scene, status))
+        return false;
+    const size_t count = scene->triangle_count;
+    size_t capacity = scene->triangle_capacity;
+    bool grown = RT_ARRAY_GROW(scene->triangles, count, &capacity);
+    capacity = scene->triangle_capacity;
+    grown = grown && RT_ARRAY_GROW(scene->triangle_materials, count, &capacity);
+    capacity = scene->triangle_capacity;
+    grown = grown && RT_ARRAY_GROW(scene->triangle_normals, count, &capacity);
+    grown = grown && (!normals || add_normals(scene, normals));
+    if (!grown)
+        return rt_status_no_memory(status, "triangles");
+    scene->triangle_capacity = capacity;
+    scene->triangles[count] = *triangle;
+    scene->triangle_materials[count] = material;
+    scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count - 1 : -1;
+    scene->triangle_count++;
+    return true;
+}
+
+rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
+                             float shininess)
+{
+    const bool whole = shininess == floorf(shininess);
+    return (rt_material){.ka_r = ka[0],
+                         .ka_g = ka[1],
+                         .ka_b = ka[2],
+                         .kd_r = kd[0],
+                         .kd_g = kd[1],
+                         .kd_b = kd[2],
+                         .ks_r = ks[0],
+                         .ks_g = ks[1],
+                         .ks_b = ks[2],
+                         .shininess = shininess,
+                         .exponent = whole ? (int)shininess : -1};
+}
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static double length(const double v[3])
+{
+    return hypot(hypot(v[0], v[1]), v[2]);
+}
+
+static void scale(double v[3], double factor)
+{
+    for (int i = 0; i < 3; ++i)
+        v[i] *= factor;
+}
+
+static void difference(double out[3], rt_vec3 a, rt_vec3 b)
+{
+    out[0] = (double)a.x - (double)b.x;
+    out[1] = (double)a.y - (double)b.y;
+    out[2] = (double)a.z - (double)b.z;
+}
+
+rt_view rt_scene_view(const rt_scene *scene)
+{
+    const rt_camera *camera = &scene->camera;
+    rt_view view = {.origin = {(double)camera->from.x, (double)camera->from.y,
+                               (double)camera->from.z}};
+    difference(view.forward, camera->at, camera->from);
+    scale(view.forward, 1.0 / length(view.forward));
+
+    double up[3];
+    difference(up, camera->up, (rt_vec3){0.0f, 0.0f, 0.0f});
+    scale(up, 1.0 / length(up));
+    cross(view.right, view.forward, up);
+    /* Two fp32 vectors that are meant to be parallel differ by rounding of about 1e-7. */
+    if (length(view.right) < 1e-6) {
+        int least = 0;
+        for (int i = 1; i < 3; ++i)
+            if (fabs(view.forward[i]) < fabs(view.forward[least]))
+                least = i;
+        for (int i = 0; i < 3; ++i)
+            up[i] = i == least;
+        cross(view.right, view.forward, up);
+    }
+    scale(view.right, 1.0 / length(view.right));
+    cross(view.up, view.right, view.forward);
+
+    /* Half a pixel: the image plane at distance 1 is 2 tan(vfov / 2) high, pixels are square. */
+    const double pi = 3.14159265358979323846;
+    const double half_pixel = tan((double)camera->vfov * pi / 360.0) / scene->height;
+    scale(view.right, half_pixel);
+    scale(view.up, half_pixel);
+    return view;
+}
+
+rt_frame rt_scene_frame(const rt_scene *scene)
+{
+    const rt_view view = rt_scene_view(scene);
+    return (rt_frame){.ox = (float)view.origin[0],
+                      .oy = (float)view.origin[1],
+                      .oz = (float)view.origin[2],
+                      .right_x = (float)view.right[0],
+                      .right_y = (float)view.right[1],
+                      .right_z = (float)view.right[2],
+                      .up_x = (float)view.up[0],
+                      .up_y = (float)view.up[1],
+                      .up_z = (float)view.up[2],
+                      .forward_x = (float)view.forward[0],
+                      .forward_y = (float)view.forward[1],
+                      .forward_z = (float)view.forward[2],
+                      .width = scene->width,
+                      .height = scene->height};
+}
+
+bool rt_triangle_is_degenerate(const rt_triangle *t)
+{
+    const rt_vec3 a = {t->ax, t->ay, t->az};
+    double e1[3], e2[3], normal[3];
+    difference(e1, (rt_vec3){t->bx, t->by, t->bz}, a);
+    difference(e2, (rt_vec3){t->cx, t->cy, t->cz}, a);
+    /* Products of two 25-bit differences are exact in double, so zero means zero, as long as the
+     * corners' magnitudes are within 2^28 of each other. */
+    cross(normal, e1, e2);
+    return normal[0] == 0.0 && normal[1] == 0.0 && normal[2] == 0.0;
+}
+
+int rt_scene_cull_sign(const rt_scene *scene)
+{
+    if (scene->cull == RT_CULL_NONE)
+        return 0;
+    /* The determinant is positive where the corners run counter-clockwise as seen. */
+    const bool keeps_front = scene->cull == RT_CULL_BACK;
+    const bool front_is_ccw = scene->winding == RT_WINDING_CCW;
+    return keeps_front == front_is_ccw ? 1 : -1;
+}

@@ -1,0 +1,100 @@
+/* The scene: what is seen, from where, in which light. Plain arrays that a device can take as they
+ * are (kernels/types.h); all numbers are fp32 and count as exact. */
+#ifndef RT_SCENE_H
+#define RT_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../kernels/types.h"
+#include "status.h"
+
+#define RT_IMAGE_SIDE_MAX 65535
+/* 16384 x 16384: pixel counts and byte counts of a picture stay within 32 bits unsigned. */
+#define RT_IMAGE_PIXELS_MAX (INT64_C(1) << 28)
+#define RT_SHININESS_MAX 1e6f
+
+typedef struct rt_vec3 {
+    float x, y, z;
+} rt_vec3;
+
+/* Where a statement stands, for `--explain` and messages; line 0 where none called for it. */
+typedef struct rt_place {
+    const char *file; /* owned by the scene */
+    int line;
+} rt_place;
+
+typedef struct rt_camera {
+    rt_vec3 from, at, up;
+    float vfov; /* degrees, whole angle from bottom to top, in (0, 180) */
+} rt_camera;
+
+enum rt_cull { RT_CULL_NONE, RT_CULL_BACK, RT_CULL_FRONT };
+enum rt_winding { RT_WINDING_CCW, RT_WINDING_CW };
+
+typedef struct rt_scene {
+    int width, height; /* pixels */
+    rt_camera camera;
+    rt_vec3 background, ambient;
+    enum rt_cull cull;
+    enum rt_winding winding;
+    rt_place cull_place, smooth_place;
+
+    /* All arrays are owned. Primitive indices count spheres, then triangles. */
+    rt_light *lights;
+    rt_material *materials;
+    rt_sphere *spheres;
+    int32_t *sphere_materials;
+    rt_triangle *triangles;
+    int32_t *triangle_materials;
+    int32_t *triangle_normals; /* record in `normals`, or -1 */
+    float *normals;            /* RT_NORMAL_COMPONENTS a record: na, nb, nc */
+    size_t light_count, light_capacity;
+    size_t material_count, material_capacity;
+    size_t sphere_count, sphere_capacity;
+    size_t triangle_count, triangle_capacity;
+    size_t normal_count, normal_capacity; /* records */
+
+    char **files; /* names of the files read, in order of opening */
+    size_t file_count, file_capacity;
+} rt_scene;
+
+/* An empty scene with the defaults of the format: 512x512, eye at the origin looking along -z,
+ * vfov 90, everything black. */
+void rt_scene_init(rt_scene *scene);
+void rt_scene_clear(rt_scene *scene);
+
+/* Each adds one element and returns false, with the status set, when memory or the 2^31 - 1
+ * primitives that an index can name run out. `normals` is NULL or nine floats. */
+bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status);
+bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status);
+bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
+                         rt_status *status);
+bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
+                           int32_t material, rt_status *status);
+
+/* A material for the given coefficients (ka, kd, ks: r g b each). */
+rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
+                             float shininess);
+
+/* The camera as vectors, in double: the direction of pixel (x, y) is
+ * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward, not unit. */
+typedef struct rt_view {
+    double origin[3], right[3], up[3], forward[3];
+} rt_view;
+
+/* Where `up` is parallel to the view, the axis least along the view stands in for it. */
+rt_view rt_scene_view(const rt_scene *scene);
+
+/* The view rounded to what the kernels and the float reference take. */
+rt_frame rt_scene_frame(const rt_scene *scene);
+
+/* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
+ * has no area. */
+bool rt_triangle_is_degenerate(const rt_triangle *triangle);
+
+/* +1 or -1: the only sign of the Moller-Trumbore determinant that is a hit; 0: both are. */
+int rt_scene_cull_sign(const rt_scene *scene);
+
+#endif

@@ -1,0 +1,63 @@
+#include "stats.h"
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+static json_t *count_of(size_t count)
+{
+    return json_integer((json_int_t)count);
+}
+
+static json_t *seconds_of(const rt_stats *s)
+{
+    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f}", "parse", s->parse, "accel", s->accel,
+                     "program", s->program, "upload", s->upload, "kernel", s->kernel, "readback",
+                     s->readback, "encode", s->encode, "total", s->total);
+}
+
+/* Every stage that was launched, with its seconds by the device's clock. */
+static json_t *stages_of(const rt_stats *s)
+{
+    json_t *stages = json_object();
+    for (int i = 0; s->times && i < RT_STAGE_COUNT; ++i)
+        if (s->times->launches[i])
+            json_object_set_new(stages, rt_stage_name((enum rt_stage)i),
+                                json_real(s->times->stages[i]));
+    return stages;
+}
+
+static json_t *effects_of(const rt_stats *s)
+{
+    json_t *effects = json_array();
+    for (int i = 0; i < RT_EFFECT_COUNT; ++i)
+        if (s->effects.on[i])
+            json_array_append_new(effects, json_string(rt_effect_name((enum rt_effect)i)));
+    return effects;
+}
+
+/* Whether the rays of later stages are traced or not, their counts are there: 0 is a fact too. */
+static json_t *rays_of(const rt_stats *s)
+{
+    return json_pack("{s:o,s:i,s:i,s:i,s:o}", "primary", count_of(s->primary_rays), "shadow", 0,
+                     "reflection", 0, "refraction", 0, "total", count_of(s->primary_rays));
+}
+
+bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
+{
+    json_t *root = json_pack(
+        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o}", "device", s->device,
+        "platform", s->platform, "driver", s->driver, "accuracy", s->accuracy, "lanes", s->lanes,
+        "width", s->width, "height", s->height, "primitives", "spheres", count_of(s->spheres),
+        "triangles", count_of(s->triangles), "lights", count_of(s->lights), "materials",
+        count_of(s->materials), "rays", rays_of(s), "seconds", seconds_of(s), "stages",
+        stages_of(s), "effects", effects_of(s));
+    char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
+    json_decref(root);
+    if (!text)
+        return rt_status_no_memory(status, "--stats");
+    const bool good = rt_output_write(output, text, strlen(text), status) &&
+                      rt_output_write(output, "\n", 1, status);
+    free(text);
+    return good;
+}

@@ -1,0 +1,24 @@
+/* What a run did and how long it took, as JSON. */
+#ifndef RT_STATS_H
+#define RT_STATS_H
+
+#include "effects.h"
+#include "file.h"
+#include "render.h"
+
+typedef struct rt_stats {
+    const char *device;   /* name, "scalar" or "scalar-double" */
+    const char *platform; /* empty for the scalar path */
+    const char *driver;
+    const char *accuracy;
+    int lanes, width, height;
+    size_t spheres, triangles, lights, materials;
+    size_t primary_rays;
+    rt_effects effects;
+    double parse, accel, program, upload, kernel, readback, encode, total; /* wall seconds */
+    const rt_render_times *times; /* NULL for the scalar path */
+} rt_stats;
+
+bool rt_stats_write(const rt_stats *stats, rt_output *output, rt_status *status);
+
+#endif
