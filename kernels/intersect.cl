@@ -75,8 +75,7 @@ void hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index)
     const real u = AS_REAL(AS_MASK(DOT(s, p)) ^ sign);
     const real3 q = CROSS(real3, s, e1);
     const real v = AS_REAL(AS_MASK(DOT(r->direction, q)) ^ sign);
-    const mask inside =
-        facing & MASK(u >= (real)0.0f) & MASK(v >= (real)0.0f) & MASK(u + v <= det);
+    const mask inside = facing & MASK(u >= (real)0.0f) & MASK(v >= (real)0.0f) & MASK(u + v <= det);
     if (!ANY(inside))
         return;
     const real t = DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), det);

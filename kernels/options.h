@@ -1,5 +1,5 @@
 /* Every build option of the kernels, with its default. src/program.c is the only place that sets
- * them; a value that no kernel knows stops the build here, not somewhere in the middle of a walk. */
+ * them; a value that no kernel knows stops the build here, not in the middle of a stage. */
 
 /* Rays that one work-item of the trace stage carries, each in its own lane of a vector type. */
 #ifndef RT_LANES

@@ -41,7 +41,7 @@ typedef struct real3 {
 } real3;
 
 /* Works for real3 and for vec3 alike; arguments are evaluated more than once. */
-#define DOT(a, b) fma((a).x, (b).x, fma((a).y, (b).y, (a).z * (b).z))
+#define DOT(a, b) fma((a).x, (b).x, fma((a).y, (b).y, ((a).z * (b).z)))
 #define CROSS(type, a, b)                                                                          \
     ((type){fma((a).y, (b).z, -((a).z * (b).y)), fma((a).z, (b).x, -((a).x * (b).z)),              \
             fma((a).x, (b).y, -((a).y * (b).x))})

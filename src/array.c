@@ -16,10 +16,11 @@ bool rt_array_grow(void *array, size_t count, size_t *capacity, size_t element_s
     /* Copied, because a pointer to an element type may not be read as a pointer to void. */
     void *elements;
     memcpy(&elements, array, sizeof elements);
-    elements = realloc(elements, grown * element_size);
-    if (!elements)
+    void *moved = realloc(elements, grown * element_size);
+    if (!moved)
         return false;
-    memcpy(array, &elements, sizeof elements);
+    memcpy(array, &moved, sizeof moved); /* the owner has it now */
     *capacity = grown;
+    /* cppcheck-suppress memleak */
     return true;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "array.h"
+#include "number.h"
 
 #define PLATFORM_NOT_FOUND_KHR (-1001)
 
@@ -72,8 +73,8 @@ static bool read_platform(rt_device_list *list, cl_platform_id platform, int pla
                          .index = (int)list->count,
                          .platform_index = platform_index,
                          .device_index = (int)i};
-        good = RT_CL(clGetPlatformInfo(platform, CL_PLATFORM_NAME, RT_DEVICE_TEXT,
-                                       d->platform_name, NULL),
+        good = RT_CL(clGetPlatformInfo(platform, CL_PLATFORM_NAME, RT_DEVICE_TEXT, d->platform_name,
+                                       NULL),
                      status) &&
                describe(d, status);
         if (good)
@@ -118,43 +119,47 @@ static const rt_device *first_of_type(const rt_device_list *list, cl_device_type
     return NULL;
 }
 
-static const rt_device *find_index(const rt_device_list *list, const char *selector)
+/* "INDEX" or "P:D"; NULL where there is no such device. */
+static const rt_device *find_number(const rt_device_list *list, const char *selector)
 {
-    int first = 0, second = 0, used = 0;
-    if (sscanf(selector, "%d%n", &first, &used) == 1 && selector[used] == '\0') {
-        if (first >= 0 && (size_t)first < list->count)
-            return &list->devices[first];
+    const char *colon = strchr(selector, ':');
+    const size_t first_length = colon ? (size_t)(colon - selector) : strlen(selector);
+    int64_t first = -1, second = -1;
+    if (rt_number_int(selector, first_length, &first) != RT_NUMBER_OK ||
+        (colon && rt_number_int(colon + 1, strlen(colon + 1), &second) != RT_NUMBER_OK))
         return NULL;
+    for (size_t i = 0; i < list->count; ++i) {
+        const rt_device *d = &list->devices[i];
+        if (colon ? d->platform_index == first && d->device_index == second : d->index == first)
+            return d;
     }
-    used = 0;
-    if (sscanf(selector, "%d:%d%n", &first, &second, &used) == 2 && selector[used] == '\0')
-        for (size_t i = 0; i < list->count; ++i)
-            if (list->devices[i].platform_index == first && list->devices[i].device_index == second)
-                return &list->devices[i];
     return NULL;
+}
+
+/* Never NULL for a list that is not empty. */
+static const rt_device *find_default(const rt_device_list *list)
+{
+    const rt_device *d = first_of_type(list, CL_DEVICE_TYPE_GPU);
+    if (!d)
+        d = first_of_type(list, CL_DEVICE_TYPE_CPU);
+    return d ? d : list->devices;
 }
 
 static const rt_device *find(const rt_device_list *list, const char *selector)
 {
-    if (!selector) {
-        const rt_device *d = first_of_type(list, CL_DEVICE_TYPE_GPU);
-        if (!d)
-            d = first_of_type(list, CL_DEVICE_TYPE_CPU);
-        return d ? d : &list->devices[0];
-    }
     if (strcasecmp(selector, "cpu") == 0)
         return first_of_type(list, CL_DEVICE_TYPE_CPU);
     if (strcasecmp(selector, "gpu") == 0)
         return first_of_type(list, CL_DEVICE_TYPE_GPU);
     if (strcasecmp(selector, "accelerator") == 0)
         return first_of_type(list, CL_DEVICE_TYPE_ACCELERATOR);
-    const rt_device *d = find_index(list, selector);
-    const bool is_number = selector[strspn(selector, "0123456789:")] == '\0';
-    for (size_t i = 0; !d && !is_number && i < list->count; ++i)
+    if (selector[strspn(selector, "0123456789:")] == '\0')
+        return find_number(list, selector);
+    for (size_t i = 0; i < list->count; ++i)
         if (strcasestr(list->devices[i].name, selector) ||
             strcasestr(list->devices[i].platform_name, selector))
-            d = &list->devices[i];
-    return d;
+            return &list->devices[i];
+    return NULL;
 }
 
 const rt_device *rt_device_choose(const rt_device_list *list, const char *selector,
@@ -166,6 +171,8 @@ const rt_device *rt_device_choose(const rt_device_list *list, const char *select
                        "pocl-opencl-icd), or use --device scalar");
         return NULL;
     }
+    if (!selector)
+        return find_default(list);
     const rt_device *d = find(list, selector);
     if (d)
         return d;

@@ -13,9 +13,9 @@ typedef struct rt_effects {
     bool on[RT_EFFECT_COUNT];
     rt_place called_by[RT_EFFECT_COUNT]; /* the first statement that called for it */
     bool has_spheres, has_triangles;
-    int cull_sign;               /* rt_scene_cull_sign */
+    int cull_sign;                /* rt_scene_cull_sign */
     bool has_fractional_exponent; /* some shininess is not whole */
-    int exponent_bits;           /* that hold the largest whole shininess: 8 or 20 */
+    int exponent_bits;            /* that hold the largest whole shininess: 8 or 20 */
 } rt_effects;
 
 rt_effects rt_effects_of(const rt_scene *scene);

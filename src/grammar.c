@@ -6,19 +6,37 @@
 #include "scene.h"
 
 #define NUMBER(name, low, high, is_open, fallback, meaning)                                        \
-    {name, RT_VALUE_NUMBER, low, high, is_open, NULL, fallback, meaning}
+    {                                                                                              \
+        name, RT_VALUE_NUMBER, low, high, is_open, NULL, fallback, meaning                         \
+    }
 #define COUNT(name, low, high, fallback, meaning)                                                  \
-    {name, RT_VALUE_COUNT, low, high, 0, NULL, fallback, meaning}
+    {                                                                                              \
+        name, RT_VALUE_COUNT, low, high, 0, NULL, fallback, meaning                                \
+    }
 #define POINT(name, fallback, meaning)                                                             \
-    {name, RT_VALUE_POINT, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning}
+    {                                                                                              \
+        name, RT_VALUE_POINT, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning                        \
+    }
 #define DIRECTION(name, fallback, meaning)                                                         \
-    {name, RT_VALUE_DIRECTION, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning}
+    {                                                                                              \
+        name, RT_VALUE_DIRECTION, -FLT_MAX, FLT_MAX, 0, NULL, fallback, meaning                    \
+    }
 #define LIGHT_COLOR(name, fallback, meaning)                                                       \
-    {name, RT_VALUE_COLOR, 0.0, FLT_MAX, 0, NULL, fallback, meaning}
-#define REFLECTANCE(name, meaning) {name, RT_VALUE_COLOR, 0.0, 1.0, 0, NULL, "0 0 0", meaning}
+    {                                                                                              \
+        name, RT_VALUE_COLOR, 0.0, FLT_MAX, 0, NULL, fallback, meaning                             \
+    }
+#define REFLECTANCE(name, meaning)                                                                 \
+    {                                                                                              \
+        name, RT_VALUE_COLOR, 0.0, 1.0, 0, NULL, "0 0 0", meaning                                  \
+    }
 #define CHOICE(name, choices, fallback, meaning)                                                   \
-    {name, RT_VALUE_CHOICE, 0, 0, 0, choices, fallback, meaning}
-#define PLAIN(name, kind, meaning) {name, kind, 0, 0, 0, NULL, NULL, meaning}
+    {                                                                                              \
+        name, RT_VALUE_CHOICE, 0, 0, 0, choices, fallback, meaning                                 \
+    }
+#define PLAIN(name, kind, meaning)                                                                 \
+    {                                                                                              \
+        name, kind, 0, 0, 0, NULL, NULL, meaning                                                   \
+    }
 
 const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
     [RT_STATEMENT_RT] = {"rt",
@@ -37,14 +55,14 @@ const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
                             "the size of the picture",
                             {COUNT("width", 1, RT_IMAGE_SIDE_MAX, "512", "pixels"),
                              COUNT("height", 1, RT_IMAGE_SIDE_MAX, "512", "pixels")}},
-    [RT_STATEMENT_CAMERA] =
-        {"camera",
-         NULL,
-         1,
-         "where the picture is taken from",
-         {POINT("from", "0 0 0", "the eye"), POINT("at", "0 0 -1", "a point on the view's axis"),
-          DIRECTION("up", "0 1 0", "the direction that is up in the picture"),
-          NUMBER("vfov", 0.0, 180.0, 1, "90", "degrees from bottom to top")}},
+    [RT_STATEMENT_CAMERA] = {"camera",
+                             NULL,
+                             1,
+                             "where the picture is taken from",
+                             {POINT("from", "0 0 0", "the eye"),
+                              POINT("at", "0 0 -1", "a point on the view's axis"),
+                              DIRECTION("up", "0 1 0", "the direction that is up in the picture"),
+                              NUMBER("vfov", 0.0, 180.0, 1, "90", "degrees from bottom to top")}},
     [RT_STATEMENT_BACKGROUND] = {"background",
                                  NULL,
                                  1,
@@ -67,16 +85,14 @@ const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
                                         "a light from infinitely far away",
                                         {DIRECTION("direction", NULL, "the way the light travels"),
                                          LIGHT_COLOR("color", "1 1 1", "its colour")}},
-    [RT_STATEMENT_MATERIAL] = {"material",
-                               NULL,
-                               0,
-                               "a surface for the primitives below it",
-                               {PLAIN(NULL, RT_VALUE_NAME, "its name"),
-                                REFLECTANCE("ka", "ambient reflectance"),
-                                REFLECTANCE("kd", "diffuse reflectance"),
-                                REFLECTANCE("ks", "specular reflectance"),
-                                NUMBER("shininess", 0.0, RT_SHININESS_MAX, 0, "1",
-                                       "Phong's exponent n")}},
+    [RT_STATEMENT_MATERIAL] =
+        {"material",
+         NULL,
+         0,
+         "a surface for the primitives below it",
+         {PLAIN(NULL, RT_VALUE_NAME, "its name"), REFLECTANCE("ka", "ambient reflectance"),
+          REFLECTANCE("kd", "diffuse reflectance"), REFLECTANCE("ks", "specular reflectance"),
+          NUMBER("shininess", 0.0, RT_SHININESS_MAX, 0, "1", "Phong's exponent n")}},
     [RT_STATEMENT_SPHERE] = {"sphere",
                              NULL,
                              0,
@@ -84,15 +100,16 @@ const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
                              {POINT("center", NULL, "its centre"),
                               NUMBER("radius", 0.0, FLT_MAX, 1, NULL, "its radius"),
                               PLAIN("material", RT_VALUE_MATERIAL, "its surface")}},
-    [RT_STATEMENT_TRIANGLE] =
-        {"triangle",
-         NULL,
-         0,
-         "a triangle; smooth with `na`, `nb`, `nc`, which go together",
-         {POINT("a", NULL, "first corner"), POINT("b", NULL, "second corner"),
-          POINT("c", NULL, "third corner"), PLAIN("material", RT_VALUE_MATERIAL, "its surface"),
-          POINT("na", "none", "normal at a, of any length"),
-          POINT("nb", "none", "normal at b"), POINT("nc", "none", "normal at c")}},
+    [RT_STATEMENT_TRIANGLE] = {"triangle",
+                               NULL,
+                               0,
+                               "a triangle; smooth with `na`, `nb`, `nc`, which go together",
+                               {POINT("a", NULL, "first corner"), POINT("b", NULL, "second corner"),
+                                POINT("c", NULL, "third corner"),
+                                PLAIN("material", RT_VALUE_MATERIAL, "its surface"),
+                                POINT("na", "none", "normal at a, of any length"),
+                                POINT("nb", "none", "normal at b"),
+                                POINT("nc", "none", "normal at c")}},
     [RT_STATEMENT_CULL] = {"cull",
                            NULL,
                            1,
@@ -135,10 +152,10 @@ void rt_field_expectation(const rt_field *field, char *text, size_t size)
             expect_range(field, "a whole number", text, size);
         break;
     case RT_VALUE_POINT:
-        snprintf(text, size, "three numbers");
+        snprintf(text, size, "three finite numbers");
         break;
     case RT_VALUE_DIRECTION:
-        snprintf(text, size, "three numbers, not all 0");
+        snprintf(text, size, "three finite numbers, not all 0");
         break;
     case RT_VALUE_COLOR:
         expect_range(field, "three numbers", text, size);

@@ -55,6 +55,7 @@ rt_image_difference rt_image_compare(const rt_image *a, const rt_image *b)
         }
         d.max_step = worst > d.max_step ? worst : d.max_step;
         d.non_finite += !is_finite_pixel(p) || !is_finite_pixel(q);
+        /* Bits are what is compared, not values. */
         const bool hit_off =
             a->hits && b->hits && memcmp(&a->hits[i], &b->hits[i], sizeof *a->hits) != 0;
         d.hits += hit_off;

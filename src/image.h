@@ -30,11 +30,11 @@ uint8_t rt_image_step(float component);
 
 /* How two pictures of one size differ. Steps are 8-bit steps. */
 typedef struct rt_image_difference {
-    size_t hits;         /* hit records that differ in a bit; 0 where either has none */
-    size_t pixels;       /* pixels off by more than one step in some component */
-    int max_step;        /* the largest difference of a component */
-    double rms_step;     /* root mean square over all components */
-    size_t non_finite;   /* pixels of either picture with a component that is not finite */
+    size_t hits;          /* hit records that differ in a bit; 0 where either has none */
+    size_t pixels;        /* pixels off by more than one step in some component */
+    int max_step;         /* the largest difference of a component */
+    double rms_step;      /* root mean square over all components */
+    size_t non_finite;    /* pixels of either picture with a component that is not finite */
     int first_x, first_y; /* the first pixel whose hit or colour is off; -1 if none */
 } rt_image_difference;
 

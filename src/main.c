@@ -184,10 +184,11 @@ static bool write_picture(run *r)
 {
     const double start = rt_clock_seconds();
     const rt_options *o = &r->options;
-    const bool good = (!o->output || (rt_image_write(&r->image, o->format, &r->picture, &r->status) &&
-                                      rt_output_commit(&r->picture, &r->status))) &&
-                      (!o->hits || (rt_image_write_hits(&r->image, &r->hits, &r->status) &&
-                                    rt_output_commit(&r->hits, &r->status)));
+    const bool good =
+        (!o->output || (rt_image_write(&r->image, o->format, &r->picture, &r->status) &&
+                        rt_output_commit(&r->picture, &r->status))) &&
+        (!o->hits || (rt_image_write_hits(&r->image, &r->hits, &r->status) &&
+                      rt_output_commit(&r->hits, &r->status)));
     r->stats.encode = rt_clock_seconds() - start;
     return good;
 }

@@ -24,20 +24,19 @@ enum {
     OPTION_VERSION
 };
 
-static const struct option long_options[] = {
-    {"device", required_argument, NULL, OPTION_DEVICE},
-    {"grammar", no_argument, NULL, OPTION_GRAMMAR},
-    {"help", no_argument, NULL, OPTION_HELP},
-    {"hits", required_argument, NULL, OPTION_HITS},
-    {"lanes", required_argument, NULL, OPTION_LANES},
-    {"list-devices", no_argument, NULL, OPTION_LIST},
-    {"quiet", no_argument, NULL, OPTION_QUIET},
-    {"size", required_argument, NULL, OPTION_SIZE},
-    {"stats", required_argument, NULL, OPTION_STATS},
-    {"tile", required_argument, NULL, OPTION_TILE},
-    {"verify", no_argument, NULL, OPTION_VERIFY},
-    {"version", no_argument, NULL, OPTION_VERSION},
-    {NULL, 0, NULL, 0}};
+static const struct option long_options[] = {{"device", required_argument, NULL, OPTION_DEVICE},
+                                             {"grammar", no_argument, NULL, OPTION_GRAMMAR},
+                                             {"help", no_argument, NULL, OPTION_HELP},
+                                             {"hits", required_argument, NULL, OPTION_HITS},
+                                             {"lanes", required_argument, NULL, OPTION_LANES},
+                                             {"list-devices", no_argument, NULL, OPTION_LIST},
+                                             {"quiet", no_argument, NULL, OPTION_QUIET},
+                                             {"size", required_argument, NULL, OPTION_SIZE},
+                                             {"stats", required_argument, NULL, OPTION_STATS},
+                                             {"tile", required_argument, NULL, OPTION_TILE},
+                                             {"verify", no_argument, NULL, OPTION_VERIFY},
+                                             {"version", no_argument, NULL, OPTION_VERSION},
+                                             {NULL, 0, NULL, 0}};
 
 void rt_options_help(FILE *out)
 {
@@ -181,7 +180,8 @@ static bool check(rt_options *o, rt_status *status)
     if (to_stdout > 1 || (to_stdout == 1 && o->verify))
         return fail_usage(status, "only one thing can go to standard output", "");
     if (o->verify && o->target != RT_TARGET_DEVICE)
-        return fail_usage(status, "--verify holds a device against the scalar path; choose one", "");
+        return fail_usage(status, "--verify holds a device against the scalar path; choose one",
+                          "");
     return true;
 }
 
@@ -192,7 +192,7 @@ bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *stat
     if (environment && *environment)
         read_device(options, environment);
     opterr = 0;
-    optind = 1;
+    optind = 0; /* GNU's sign to begin afresh */
     for (;;) {
         const int code = getopt_long(argc, argv, ":d:hq", long_options, NULL);
         if (code == -1)

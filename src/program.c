@@ -47,7 +47,8 @@ static char *read_folder(const char *folder, size_t *length, rt_status *status)
         }
         const char *reason = rt_file_read(path, &text);
         if (reason)
-            good = rt_status_fail(status, RT_ERROR_DEVICE, "rt: cannot read '%s': %s", path, reason);
+            good =
+                rt_status_fail(status, RT_ERROR_DEVICE, "rt: cannot read '%s': %s", path, reason);
         else
             fprintf(stream, "#line 1 \"%s\"\n%s\n", path, text.bytes);
         rt_file_free(&text);

@@ -49,8 +49,8 @@ struct rt_renderer {
 static const struct {
     const char *name, *kernel;
 } stages[RT_STAGE_COUNT] = {
-    [RT_STAGE_CAMERA] = {"camera", "rt_camera"},    [RT_STAGE_TRACE] = {"trace", "rt_trace"},
-    [RT_STAGE_SHADE] = {"shade", "rt_shade"},       [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve"},
+    [RT_STAGE_CAMERA] = {"camera", "rt_camera"},   [RT_STAGE_TRACE] = {"trace", "rt_trace"},
+    [RT_STAGE_SHADE] = {"shade", "rt_shade"},      [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve"},
     [RT_STAGE_HITS] = {"hits", "rt_resolve_hits"},
 };
 
@@ -95,9 +95,9 @@ static bool upload(rt_renderer *r, const void *bytes, size_t size, cl_mem *buffe
                    rt_status *status)
 {
     return make_buffer(r, CL_MEM_READ_ONLY, size, buffer, status) &&
-           (size == 0 || RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, size, bytes, 0,
-                                                    NULL, NULL),
-                               status));
+           (size == 0 ||
+            RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, size, bytes, 0, NULL, NULL),
+                  status));
 }
 
 /* One array of material indices for all primitives, spheres first. */
@@ -144,8 +144,8 @@ static bool make_tile_buffers(rt_renderer *r, rt_status *status)
            make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_index, status) &&
            make_buffer(r, CL_MEM_READ_WRITE, rays * RT_HIT_COMPONENTS * sizeof(float),
                        &b->hit_array, status) &&
-           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float),
-                       &b->colors, status) &&
+           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float), &b->colors,
+                       status) &&
            make_buffer(r, CL_MEM_WRITE_ONLY, rays * RT_COLOR_COMPONENTS * sizeof(float),
                        &b->picture, status) &&
            make_buffer(r, CL_MEM_WRITE_ONLY, r->with_hits ? rays * sizeof(rt_hit) : 0, &b->records,
@@ -284,11 +284,11 @@ void rt_renderer_free(rt_renderer *r)
     for (int i = 0; i < RT_STAGE_COUNT; ++i)
         if (r->kernels[i])
             clReleaseKernel(r->kernels[i]);
-    const cl_mem buffers[] = {
-        r->scene.spheres, r->scene.triangles, r->scene.materials_of, r->scene.normals_of,
-        r->scene.normals, r->scene.materials, r->scene.lights,       r->tile.rays,
-        r->tile.hit_index, r->tile.hit_array, r->tile.colors,        r->tile.picture,
-        r->tile.records};
+    const cl_mem buffers[] = {r->scene.spheres,    r->scene.triangles, r->scene.materials_of,
+                              r->scene.normals_of, r->scene.normals,   r->scene.materials,
+                              r->scene.lights,     r->tile.rays,       r->tile.hit_index,
+                              r->tile.hit_array,   r->tile.colors,     r->tile.picture,
+                              r->tile.records};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])
             clReleaseMemObject(buffers[i]);
@@ -408,8 +408,8 @@ static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, si
 {
     for (size_t i = 0; i < padded; ++i) {
         const rt_ray *ray = &rays[i < count ? i : count - 1];
-        r->staging[i] = c < RT_RAY_DX     ? ray->origin[c]
-                        : c < RT_RAY_TMIN ? ray->direction[c - RT_RAY_DX]
+        r->staging[i] = c < RT_RAY_DX      ? ray->origin[c]
+                        : c < RT_RAY_TMIN  ? ray->direction[c - RT_RAY_DX]
                         : c == RT_RAY_TMIN ? ray->tmin
                         : i < count        ? ray->tmax
                                            : -1.0f;

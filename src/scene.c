@@ -158,8 +158,8 @@ static void difference(double out[3], rt_vec3 a, rt_vec3 b)
 rt_view rt_scene_view(const rt_scene *scene)
 {
     const rt_camera *camera = &scene->camera;
-    rt_view view = {.origin = {(double)camera->from.x, (double)camera->from.y,
-                               (double)camera->from.z}};
+    rt_view view = {
+        .origin = {(double)camera->from.x, (double)camera->from.y, (double)camera->from.z}};
     difference(view.forward, camera->at, camera->from);
     scale(view.forward, 1.0 / length(view.forward));
 

@@ -181,8 +181,7 @@ static bool read_float(parser *p, source *src, const line *l, const rt_field *fi
     token tok;
     if (!next_token(p, src, &tok))
         return false;
-    if (is_end(&tok) || tok.quoted ||
-        rt_number_float(tok.text, tok.length, out) != RT_NUMBER_OK ||
+    if (is_end(&tok) || tok.quoted || rt_number_float(tok.text, tok.length, out) != RT_NUMBER_OK ||
         !is_in_range(field, (double)*out))
         return fail_value(p, src, l, field, &tok);
     return true;
@@ -322,7 +321,8 @@ static bool read_fields(parser *p, source *src, line *l)
         if (index == count)
             return fail_unknown_name(p, src, l, &tok);
         if (l->values[index].given)
-            return FAIL_AT(p, src, tok.text, "'%s' is given twice", l->statement->fields[index].name);
+            return FAIL_AT(p, src, tok.text, "'%s' is given twice",
+                           l->statement->fields[index].name);
         if (!read_value(p, src, l, index))
             return false;
         next = index + 1;
@@ -394,7 +394,8 @@ static int32_t find_material(parser *p, source *src, const token *word)
         p->last_name = *(material_name **)node;
         return p->last_name->index;
     }
-    FAIL_AT(p, src, word->text, "found '%.*s%s'; 'material' takes the name of a material defined above",
+    FAIL_AT(p, src, word->text,
+            "found '%.*s%s'; 'material' takes the name of a material defined above",
             shown_length(word->length), word->text, ellipsis(word->length));
     return -1;
 }
@@ -447,9 +448,9 @@ static bool apply_material(parser *p, source *src, const line *l)
 {
     const float zero[3] = {0.0f, 0.0f, 0.0f};
     const value *v = l->values;
-    const rt_material material = rt_material_make(
-        v[1].given ? v[1].number : zero, v[2].given ? v[2].number : zero,
-        v[3].given ? v[3].number : zero, v[4].given ? v[4].number[0] : 1.0f);
+    const rt_material material =
+        rt_material_make(v[1].given ? v[1].number : zero, v[2].given ? v[2].number : zero,
+                         v[3].given ? v[3].number : zero, v[4].given ? v[4].number[0] : 1.0f);
     return define_material(p, src, &v[0].word, (int32_t)p->scene->material_count) &&
            rt_scene_add_material(p->scene, &material, p->status);
 }
@@ -562,7 +563,7 @@ static bool apply(parser *p, source *src, const line *l, enum rt_statement_id id
 
 static bool fail_unknown_statement(parser *p, source *src, const token *tok)
 {
-    const char *names[RT_STATEMENT_COUNT];
+    const char *names[RT_STATEMENT_COUNT] = {NULL};
     size_t count = 0;
     for (int id = 0; id < RT_STATEMENT_COUNT; ++id)
         if (count == 0 || strcmp(names[count - 1], rt_statements[id].keyword) != 0)
@@ -613,8 +614,8 @@ static bool check_order(parser *p, source *src, const line *l, enum rt_statement
 {
     rt_place *seen = &p->seen[id];
     if (rt_statements[id].once && seen->line)
-        return FAIL_AT(p, src, l->start, "'%s' is given already at %s:%d",
-                       l->statement->keyword, seen->file, seen->line);
+        return FAIL_AT(p, src, l->start, "'%s' is given already at %s:%d", l->statement->keyword,
+                       seen->file, seen->line);
     if (!seen->line)
         *seen = (rt_place){src->name, src->line};
     return true;
@@ -690,9 +691,10 @@ bool rt_scene_text_read(rt_scene *scene, const char *path, rt_status *status)
     parser p = {.scene = scene, .status = status};
     bool good = read_file(&p, path, NULL, NULL);
     if (good && !p.has_version)
-        good = rt_status_fail(status, RT_ERROR_SCENE,
-                              "%s:1:1: error: the file is empty; a scene begins with 'rt 1'",
-                              scene->files[0]);
+        good =
+            rt_status_fail(status, RT_ERROR_SCENE,
+                           "%s:1:1: error: the file has no statement; a scene begins with 'rt 1'",
+                           scene->files[0]);
     if (p.degenerate_count > 0)
         rt_status_warn(status,
                        "%s:%d:1: warning: the triangle has no area and is never hit (%zu such)",

@@ -25,6 +25,7 @@ static void append(rt_status *status, const char *format, va_list arguments)
 {
     va_list again;
     va_copy(again, arguments);
+    /* The callers start the list. NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized) */
     const int length = vsnprintf(NULL, 0, format, arguments);
     if (length >= 0 && reserve(status, (size_t)length + 1)) {
         char *end = status->text + status->length;

@@ -79,7 +79,7 @@ void test_scene(rt_scene *scene, const char *text)
     const char *path = test_path("scene.txt");
     char *whole = NULL;
     assert_true(asprintf(&whole, "rt 1\n%s", text) > 0);
-    test_write_file(path, whole, strlen(whole));
+    test_write_text(path, whole);
     free(whole);
     test_scene_file(scene, path);
 }
@@ -140,6 +140,11 @@ void test_write_file(const char *path, const void *bytes, size_t length)
     assert_int_equal(fclose(file), 0);
 }
 
+void test_write_text(const char *path, const char *text)
+{
+    test_write_file(path, text, strlen(text));
+}
+
 char *test_read_file(const char *path, size_t *length)
 {
     rt_file_text text;
@@ -182,7 +187,7 @@ void test_mutate_kernels(const char *file, const char *from, const char *to)
         found = found || at;
         assert_true(asprintf(&changed, "%.*s%s%s", at ? (int)(at - text) : 0, text, at ? to : "",
                              at ? at + strlen(from) : text) >= 0);
-        test_write_file(target, changed, strlen(changed));
+        test_write_text(target, changed);
         free(changed);
         free(text);
     }

@@ -50,6 +50,7 @@ const char *test_folder(void);
 /* A path in that folder; the text lives until the 16th call after it. */
 const char *test_path(const char *name);
 void test_write_file(const char *path, const void *bytes, size_t length);
+void test_write_text(const char *path, const char *text);
 /* The file's bytes and a terminator; the caller frees them. NULL if it cannot be read. */
 char *test_read_file(const char *path, size_t *length);
 

@@ -14,7 +14,10 @@ typedef struct expectation {
     float tolerance;
 } expectation;
 
-#define RAY(ox, oy, oz, dx, dy, dz) {{ox, oy, oz}, {dx, dy, dz}, 0.0f, INFINITY}
+#define RAY(ox, oy, oz, dx, dy, dz)                                                                \
+    {                                                                                              \
+        {ox, oy, oz}, {dx, dy, dz}, 0.0f, INFINITY                                                 \
+    }
 
 static void check(const char *path, const expectation *e, const rt_hit *hit)
 {
@@ -66,14 +69,14 @@ static void sphere(void **state)
     const float root = sqrtf(3.0f) / 2.0f;
     const expectation cases[] = {
         {RAY(0, 0, 5, 0, 0, -1), 0, 4.0f, 0, 0, 0.0f},
-        {RAY(0, 0, 5, 0, 0, 1), RT_MISS, 0, 0, 0, 0},        /* behind */
-        {RAY(0, 0, 0, 0, 0, -1), 0, 1.0f, 0, 0, 0.0f},       /* from the centre */
-        {RAY(0, 0, 0.5f, 0, 0, 1), 0, 0.5f, 0, 0, 1e-7f},    /* from inside: the far root */
+        {RAY(0, 0, 5, 0, 0, 1), RT_MISS, 0, 0, 0, 0},     /* behind */
+        {RAY(0, 0, 0, 0, 0, -1), 0, 1.0f, 0, 0, 0.0f},    /* from the centre */
+        {RAY(0, 0, 0.5f, 0, 0, 1), 0, 0.5f, 0, 0, 1e-7f}, /* from inside: the far root */
         {RAY(0, 0, 0.5f, 0, 0, -1), 0, 1.5f, 0, 0, 1e-7f},
         {RAY(0.5f, 0, 5, 0, 0, -1), 0, 5.0f - root, 0, 0, 1e-6f},
-        {RAY(0, 0, 5, 0, 0, -2), 0, 2.0f, 0, 0, 0.0f},       /* t is in units of the direction */
+        {RAY(0, 0, 5, 0, 0, -2), 0, 2.0f, 0, 0, 0.0f}, /* t is in units of the direction */
         {RAY(1.5f, 0, 5, 0, 0, -1), RT_MISS, 0, 0, 0, 0},
-        {RAY(1, 0, 5, 0, 0, -1), 0, 5.0f, 0, 0, 0.0f},       /* tangent */
+        {RAY(1, 0, 5, 0, 0, -1), 0, 5.0f, 0, 0, 0.0f},                   /* tangent */
         {{{0, 0, 5}, {0, 0, -1}, 4.5f, INFINITY}, 0, 6.0f, 0, 0, 1e-6f}, /* near root before tmin */
         {{{0, 0, 5}, {0, 0, -1}, 0.0f, 4.0f}, RT_MISS, 0, 0, 0, 0},      /* tmax is exclusive */
         {{{0, 0, 5}, {0, 0, -1}, 0.0f, -1.0f}, RT_MISS, 0, 0, 0, 0},     /* a dead ray */
@@ -88,15 +91,15 @@ static void triangle(void **state)
         {RAY(0.25f, 0.25f, 1, 0, 0, -1), 0, 1.0f, 0.25f, 0.25f, 0.0f},
         {RAY(0.25f, 0.25f, -1, 0, 0, 1), 0, 1.0f, 0.25f, 0.25f, 0.0f}, /* its back */
         {RAY(0.5f, 0.125f, 2, 0, 0, -4), 0, 0.5f, 0.5f, 0.125f, 0.0f},
-        {RAY(0, 0, 1, 0, 0, -1), 0, 1.0f, 0, 0, 0.0f},       /* corner a */
-        {RAY(1, 0, 1, 0, 0, -1), 0, 1.0f, 1, 0, 0.0f},       /* corner b */
-        {RAY(0, 1, 1, 0, 0, -1), 0, 1.0f, 0, 1, 0.0f},       /* corner c */
+        {RAY(0, 0, 1, 0, 0, -1), 0, 1.0f, 0, 0, 0.0f},             /* corner a */
+        {RAY(1, 0, 1, 0, 0, -1), 0, 1.0f, 1, 0, 0.0f},             /* corner b */
+        {RAY(0, 1, 1, 0, 0, -1), 0, 1.0f, 0, 1, 0.0f},             /* corner c */
         {RAY(0.5f, 0.5f, 1, 0, 0, -1), 0, 1.0f, 0.5f, 0.5f, 0.0f}, /* the long edge */
         {RAY(0.6f, 0.6f, 1, 0, 0, -1), RT_MISS, 0, 0, 0, 0},
         {RAY(-0.01f, 0.5f, 1, 0, 0, -1), RT_MISS, 0, 0, 0, 0},
         {RAY(0.5f, -0.01f, 1, 0, 0, -1), RT_MISS, 0, 0, 0, 0},
-        {RAY(0.25f, 0.25f, 1, 0, 0, 1), RT_MISS, 0, 0, 0, 0},      /* behind */
-        {RAY(-1, 0.25f, 0, 1, 0, 0), RT_MISS, 0, 0, 0, 0},         /* in its plane */
+        {RAY(0.25f, 0.25f, 1, 0, 0, 1), RT_MISS, 0, 0, 0, 0}, /* behind */
+        {RAY(-1, 0.25f, 0, 1, 0, 0), RT_MISS, 0, 0, 0, 0},    /* in its plane */
         {RAY(1.25f, 0.25f, 1, -1, 0, -1), 0, 1.0f, 0.25f, 0.25f, 0.0f},
     };
     CHECK_ALL("material m\ntriangle a 0 0 0 b 1 0 0 c 0 1 0 material m\n", cases);

@@ -98,9 +98,9 @@ static void only_decimal_numbers_are_numbers(void **state)
 {
     (void)state;
     const char *const good[] = {"0", "-0", "+1", ".5", "5.", "1e5", "1E+5", "1.5e-3"};
-    const char *const bad[] = {"",    ".",    "+",  "-",   "e5",   "1e",  "1e+",  "1..2", "1,5",
-                               "nan", "inf",  "0x1", "1f", "1 ",   "--1", "1e5.", "1e5e5", "infinity",
-                               "1d5", "\xc2\xb5", "1-"};
+    const char *const bad[] = {"",     ".",    "+",     "-",        "e5",  "1e",       "1e+",
+                               "1..2", "1,5",  "nan",   "inf",      "0x1", "1f",       "1 ",
+                               "--1",  "1e5.", "1e5e5", "infinity", "1d5", "\xc2\xb5", "1-"};
     float value;
     for (size_t i = 0; i < sizeof good / sizeof *good; ++i)
         assert_int_equal(rt_number_float(good[i], strlen(good[i]), &value), RT_NUMBER_OK);

@@ -54,7 +54,8 @@ static void diffuse_and_specular(void **state)
     (void)state;
     assert_color("light directional direction 0.866025403784 0 -0.5 color 1 0.5 2\n"
                  "material m kd 0.5 1 0.25 ks 1 0.5 0.125 shininess 2\n" PLANE,
-                 0.5f * 0.5f + 0.25f, 0.5f * (0.5f + 0.5f * 0.25f), 2.0f * (0.125f + 0.125f * 0.25f));
+                 0.5f * 0.5f + 0.25f, 0.5f * (0.5f + 0.5f * 0.25f),
+                 2.0f * (0.125f + 0.125f * 0.25f));
 }
 
 static void a_point_light_shines_from_its_place(void **state)
@@ -79,8 +80,9 @@ static void lights_add_up(void **state)
 static void no_light_from_behind(void **state)
 {
     (void)state;
-    assert_color("light directional direction 0 0 1\nmaterial m kd 1 1 1 ks 1 1 1 shininess 8\n" PLANE,
-                 0.0f, 0.0f, 0.0f);
+    assert_color(
+        "light directional direction 0 0 1\nmaterial m kd 1 1 1 ks 1 1 1 shininess 8\n" PLANE, 0.0f,
+        0.0f, 0.0f);
 }
 
 /* The sign of N.L does not gate the highlight: the light is 5 degrees below the horizon, the eye
@@ -113,10 +115,12 @@ static void shininess_zero_and_large(void **state)
     /* 0 to the power of 0 is 1: the highlight is everywhere, even with the light behind. */
     assert_color("light directional direction 0 0 1\nmaterial m ks 1 1 1 shininess 0\n" PLANE, 1.0f,
                  1.0f, 1.0f);
-    assert_color("light directional direction 0 0 -1\nmaterial m ks 1 1 1 shininess 1000000\n" PLANE,
-                 1.0f, 1.0f, 1.0f);
-    assert_color("light directional direction 0.6 0 -0.8\nmaterial m ks 1 1 1 shininess 300\n" PLANE,
-                 powf(0.8f, 300.0f), powf(0.8f, 300.0f), powf(0.8f, 300.0f));
+    assert_color(
+        "light directional direction 0 0 -1\nmaterial m ks 1 1 1 shininess 1000000\n" PLANE, 1.0f,
+        1.0f, 1.0f);
+    assert_color(
+        "light directional direction 0.6 0 -0.8\nmaterial m ks 1 1 1 shininess 300\n" PLANE,
+        powf(0.8f, 300.0f), powf(0.8f, 300.0f), powf(0.8f, 300.0f));
 }
 
 static void a_fractional_shininess(void **state)
@@ -239,8 +243,7 @@ static void a_unit_normal_too_early_would_shrink_the_triangle(void **state)
 {
     (void)state;
     assert_true(covers_its_projection());
-    assert_false(holds_with(covers_its_projection, "intersect.cl",
-                            "DOT(e1, p);",
+    assert_false(holds_with(covers_its_projection, "intersect.cl", "DOT(e1, p);",
                             "DOT(e1, p) / ROOT(DOT(CROSS(real3, e1, e2), CROSS(real3, e1, e2)));"));
 }
 
@@ -249,7 +252,8 @@ static void a_long_normal_would_turn_highlights_white(void **state)
     (void)state;
     assert_true(highlight_is_of_its_size());
     assert_false(holds_with(highlight_is_of_its_size, "shade.cl",
-                            "return normalize3(CROSS(vec3, e1, e2));", "return CROSS(vec3, e1, e2);"));
+                            "return normalize3(CROSS(vec3, e1, e2));",
+                            "return CROSS(vec3, e1, e2);"));
 }
 
 static void swapped_edges_would_turn_the_normal_away(void **state)
@@ -257,12 +261,13 @@ static void swapped_edges_would_turn_the_normal_away(void **state)
     (void)state;
     assert_true(lit_from_the_front());
     /* Turning normals toward the ray is what makes the order of the edges harmless ... */
-    assert_true(holds_with(lit_from_the_front, "shade.cl", "CROSS(vec3, e1, e2)",
-                           "CROSS(vec3, e2, e1)"));
+    assert_true(
+        holds_with(lit_from_the_front, "shade.cl", "CROSS(vec3, e1, e2)", "CROSS(vec3, e2, e1)"));
     /* ... and without it either order is wrong for one of the two windings. */
-    assert_false(holds_with(lit_from_the_front, "shade.cl",
-                            "normal = turn_toward(geometric_normal(triangles[triangle]), direction)",
-                            "normal = scale(geometric_normal(triangles[triangle]), -1.0f)"));
+    assert_false(
+        holds_with(lit_from_the_front, "shade.cl",
+                   "normal = turn_toward(geometric_normal(triangles[triangle]), direction)",
+                   "normal = scale(geometric_normal(triangles[triangle]), -1.0f)"));
 }
 
 int main(void)

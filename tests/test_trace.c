@@ -1,5 +1,5 @@
-/* The trace kernel against the scalar path, bit for bit, over seeded ray sets of more than a million
- * rays in all, at every lane width. */
+/* The trace kernel against the scalar path, bit for bit, over seeded ray sets of more than a
+ * million rays in all, at every lane width. */
 #include "support.h"
 
 #include <math.h>
@@ -220,8 +220,10 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(at_unit_scale),      cmocka_unit_test(culled),
-        cmocka_unit_test(small_and_large),    cmocka_unit_test(any_number_of_rays),
+        cmocka_unit_test(at_unit_scale),
+        cmocka_unit_test(culled),
+        cmocka_unit_test(small_and_large),
+        cmocka_unit_test(any_number_of_rays),
         cmocka_unit_test(a_wrong_kernel_is_noticed),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -1,0 +1,176 @@
+/* The command line as a user types it. */
+#define _GNU_SOURCE
+#include "support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "options.h"
+
+#define MOST 16
+
+static enum rt_code read_line(const char *line, rt_options *options, char *message, size_t size)
+{
+    static char words[512]; /* the options point into it */
+    char *argv[MOST] = {(char[]){"rt"}};
+    int argc = 1;
+    rt_status status = RT_STATUS_INIT;
+    snprintf(words, sizeof words, "%s", line);
+    for (char *word = strtok(words, " "); word && argc < MOST - 1; word = strtok(NULL, " "))
+        argv[argc++] = word;
+    const bool good = rt_options_read(options, argc, argv, &status);
+    assert_true(good == (status.code == RT_OK));
+    snprintf(message, size, "%s", status.text ? status.text : "");
+    const enum rt_code code = status.code;
+    rt_status_clear(&status);
+    return code;
+}
+
+static void good_lines(void **state)
+{
+    (void)state;
+    char message[512];
+    rt_options o;
+    unsetenv("RT_DEVICE");
+    assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_string_equal(o.scene, "s.txt");
+    assert_string_equal(o.output, "o.png");
+    assert_int_equal(o.format, RT_IMAGE_PNG);
+    assert_int_equal(o.target, RT_TARGET_DEVICE);
+    assert_null(o.device);
+    assert_int_equal(read_line("s.txt --size 640x480 o.hdr --device=1:0 --lanes 8 --tile 32 -q", &o,
+                               message, sizeof message),
+                     RT_OK);
+    assert_int_equal(o.width, 640);
+    assert_int_equal(o.height, 480);
+    assert_int_equal(o.format, RT_IMAGE_HDR);
+    assert_string_equal(o.device, "1:0");
+    assert_int_equal(o.lanes, 8);
+    assert_int_equal(o.tile, 32);
+    assert_true(o.quiet);
+    assert_int_equal(read_line("-d Scalar - -", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.target, RT_TARGET_SCALAR);
+    assert_int_equal(read_line("--verify s.txt", &o, message, sizeof message), RT_OK);
+    assert_true(o.verify);
+    assert_int_equal(read_line("--stats - s.txt", &o, message, sizeof message), RT_OK);
+    assert_int_equal(read_line("--hits h s.txt", &o, message, sizeof message), RT_OK);
+    assert_int_equal(read_line("--help", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_HELP);
+    assert_int_equal(read_line("--version", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_VERSION);
+    assert_int_equal(read_line("--list-devices", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_LIST);
+}
+
+static void the_environment_names_a_device(void **state)
+{
+    (void)state;
+    char message[512];
+    rt_options o;
+    setenv("RT_DEVICE", "scalar-double", 1);
+    assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.target, RT_TARGET_SCALAR_DOUBLE);
+    assert_int_equal(read_line("--device cpu s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.target, RT_TARGET_DEVICE);
+    assert_string_equal(o.device, "cpu");
+    unsetenv("RT_DEVICE");
+}
+
+static void misuse(void **state)
+{
+    (void)state;
+    static const char *const lines[][2] = {
+        {"", "no scene is given"},
+        {"s.txt", "no output is given"},
+        {"s.txt o.gif", "'o.gif' does not end in .png"},
+        {"s.txt png", "does not end in"},
+        {"s.txt o.png more", "one argument too many: more"},
+        {"--frobnicate s.txt o.png", "cannot make sense of --frobnicate"},
+        {"-x s.txt o.png", "cannot make sense of"},
+        {"s.txt o.png --size", "a value is missing after --size"},
+        {"s.txt o.png --size 640", "found '640'; --size takes WxH"},
+        {"s.txt o.png --size 0x10", "--size takes"},
+        {"s.txt o.png --size 10x-1", "--size takes"},
+        {"s.txt o.png --size 10x10x", "--size takes"},
+        {"s.txt o.png --size 70000x1", "--size takes"},
+        {"s.txt o.png --size 65535x65535", "--size takes"},
+        {"s.txt o.png --lanes 3", "found '3'; --lanes takes 1, 4, 8 or 16"},
+        {"s.txt o.png --lanes x", "--lanes takes"},
+        {"s.txt o.png --tile 0", "--tile takes a whole number from 1 to 4096"},
+        {"s.txt o.png --tile 4097", "--tile takes"},
+        {"s.txt - --stats -", "only one thing can go to standard output"},
+        {"s.txt --verify --stats -", "only one thing"},
+        {"s.txt --verify --device scalar", "--verify holds a device"},
+        {"s.txt o.png --device=", "--device takes"},
+    };
+    char message[512];
+    rt_options o;
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; ++i) {
+        assert_int_equal(read_line(lines[i][0], &o, message, sizeof message), RT_ERROR_USAGE);
+        if (!strstr(message, lines[i][1]))
+            fail_msg("'%s' says: %s", lines[i][0], message);
+    }
+}
+
+/* The man page as text: troff's backslashes gone, from one heading to the next. */
+static char *read_options_section(void)
+{
+    char *man = test_read_file("src/rt.1", NULL);
+    assert_non_null(man);
+    char *out = man;
+    for (const char *p = man; *p; ++p)
+        if (*p != '\\')
+            *out++ = *p;
+    *out = '\0';
+    char *start = strstr(man, ".SH OPTIONS"), *end = strstr(man, ".SH EXIT STATUS");
+    assert_true(start && end);
+    char *section = strndup(start, (size_t)(end - start));
+    assert_non_null(section);
+    free(man);
+    return section;
+}
+
+/* Every option that --help lists is an entry of the man page, and there are no others. */
+static void the_man_page_has_the_options(void **state)
+{
+    (void)state;
+    char *help = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&help, &size);
+    assert_non_null(stream);
+    rt_options_help(stream);
+    fclose(stream);
+    char *man = read_options_section();
+    int in_help = 0, in_man = 0;
+    for (const char *line = help; line; line = strchr(line, '\n')) {
+        char name[64], entry[80];
+        line += *line == '\n';
+        /* "  -h, --help " or "      --hits=FILE ": two or six columns in */
+        const bool has_letter = strncmp(line, "  -", 3) == 0;
+        if (!has_letter && strncmp(line, "      --", 8) != 0)
+            continue;
+        assert_int_equal(sscanf(line + 6, "--%63[a-z-]", name), 1);
+        ++in_help;
+        snprintf(entry, sizeof entry, "--%s", name);
+        if (!strstr(man, entry))
+            fail_msg("rt.1 lacks %s", entry);
+    }
+    for (const char *p = man; (p = strstr(p, "\n.TP\n.B")); ++p)
+        ++in_man;
+    assert_true(in_help >= 12);
+    assert_int_equal(in_man, in_help);
+    free(help);
+    free(man);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(good_lines),
+        cmocka_unit_test(the_environment_names_a_device),
+        cmocka_unit_test(misuse),
+        cmocka_unit_test(the_man_page_has_the_options),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,116 @@
+/* Builds: options from effects, logs that name the file, and variants that must not build. */
+#define _GNU_SOURCE
+#include "support.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "program.h"
+
+static cl_program build(const char *options, rt_status *status)
+{
+    const rt_device *device = test_device();
+    cl_int error = CL_SUCCESS;
+    cl_context context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &error);
+    assert_int_equal(error, CL_SUCCESS);
+    cl_program program = rt_program_build(context, device, options, status);
+    clReleaseContext(context);
+    return program;
+}
+
+static void options_name_what_the_scene_has(void **state)
+{
+    (void)state;
+    char options[RT_PROGRAM_OPTIONS_SIZE];
+    const rt_effects effects = {.has_triangles = true, .cull_sign = -1, .exponent_bits = 8};
+    rt_program_options(&effects, 4, RT_ROUNDING_DOUBLE, options);
+    assert_string_equal(options, "-cl-std=CL1.2 -DRT_LANES=4 -DRT_SPHERES=0 -DRT_TRIANGLES=1 "
+                                 "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
+                                 "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
+    rt_program_options(&effects, 4, RT_ROUNDING_DEVICE, options);
+    assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
+}
+
+static void rounding_follows_the_device(void **state)
+{
+    (void)state;
+    rt_device device = {.rounds_divide_sqrt = true, .has_fp64 = true};
+    assert_int_equal(rt_program_rounding(&device), RT_ROUNDING_DEVICE);
+    device.rounds_divide_sqrt = false;
+    assert_int_equal(rt_program_rounding(&device), RT_ROUNDING_DOUBLE);
+    device.has_fp64 = false;
+    assert_int_equal(rt_program_rounding(&device), RT_ROUNDING_FMA);
+}
+
+static void unknown_variants_do_not_build(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"-DRT_LANES=3",
+                                      "-DRT_LANES=2",
+                                      "-DRT_SPHERES=2",
+                                      "-DRT_CULL=2",
+                                      "-DRT_CULL=-2",
+                                      "-DRT_SMOOTH=7",
+                                      "-DRT_ROUNDING=3",
+                                      "-DRT_SHININESS_BITS=9",
+                                      "-DRT_SHININESS_FRACTION=2",
+                                      "-DRT_SMOOTH=1 -DRT_TRIANGLES=0"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
+        rt_status status = RT_STATUS_INIT;
+        assert_null(build(bad[i], &status));
+        assert_int_equal(status.code, RT_ERROR_DEVICE);
+        assert_non_null(strstr(status.text, bad[i]));
+        rt_status_clear(&status);
+    }
+}
+
+static void a_log_names_the_file_and_line(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    test_mutate_kernels("resolve.cl", "const pixel p = tile_pixel(tile);",
+                        "const pixel p = tile_picksel(tile);");
+    assert_null(build("", &status));
+    test_restore_kernels();
+    assert_non_null(strstr(status.text, "resolve.cl:"));
+    assert_non_null(strstr(status.text, "driver: "));
+    assert_non_null(strstr(status.text, "device: "));
+    rt_status_clear(&status);
+}
+
+static void a_missing_kernel_folder(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    setenv("RT_KERNELS", "/nowhere", 1);
+    assert_null(build("", &status));
+    unsetenv("RT_KERNELS");
+    assert_int_equal(status.code, RT_ERROR_DEVICE);
+    assert_string_equal(status.text,
+                        "rt: cannot read '/nowhere/options.h': No such file or directory\n");
+    rt_status_clear(&status);
+}
+
+static void errors_have_names(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    assert_true(rt_cl_check(CL_SUCCESS, "clFinish(queue)", "a.c", 7, &status));
+    assert_false(rt_cl_check(CL_OUT_OF_RESOURCES, "clFinish(queue)", "a.c", 7, &status));
+    assert_string_equal(status.text, "rt: a.c:7: clFinish: CL_OUT_OF_RESOURCES (-5)\n");
+    assert_string_equal(rt_cl_error_name(-9999), "unknown error");
+    rt_status_clear(&status);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(options_name_what_the_scene_has),
+        cmocka_unit_test(rounding_follows_the_device),
+        cmocka_unit_test(unknown_variants_do_not_build),
+        cmocka_unit_test(a_log_names_the_file_and_line),
+        cmocka_unit_test(a_missing_kernel_folder),
+        cmocka_unit_test(errors_have_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
