@@ -8,10 +8,10 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global f
     /* Whole numbers, exact in float; the pixel size is in the frame's vectors. */
     const float across = (float)(2 * (tile.x + p.column) + 1 - frame.width);
     const float upward = (float)(frame.height - 1 - 2 * (tile.y + p.row));
-    const vec3 direction =
-        normalize3((vec3){fma(frame.right_x, across, fma(frame.up_x, upward, frame.forward_x)),
+    const vec3 through = {fma(frame.right_x, across, fma(frame.up_x, upward, frame.forward_x)),
                           fma(frame.right_y, across, fma(frame.up_y, upward, frame.forward_y)),
-                          fma(frame.right_z, across, fma(frame.up_z, upward, frame.forward_z))});
+                          fma(frame.right_z, across, fma(frame.up_z, upward, frame.forward_z))};
+    const vec3 direction = SCALE(through, RECIPROCAL_LENGTH(through));
     rays[RT_RAY_OX * (size_t)stride + i] = frame.ox;
     rays[RT_RAY_OY * (size_t)stride + i] = frame.oy;
     rays[RT_RAY_OZ * (size_t)stride + i] = frame.oz;

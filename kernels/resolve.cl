@@ -7,7 +7,7 @@ rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
     const pixel p = tile_pixel(tile);
     if (!p.inside)
         return;
-    const vec3 color = load3(colors, stride, get_global_id(0));
+    const vec3 color = LOAD3(colors, stride, get_global_id(0));
     __global float *out =
         picture + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
     out[0] = color.x;
@@ -24,7 +24,7 @@ rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_in
     if (!p.inside)
         return;
     const size_t i = get_global_id(0);
-    const vec3 tuv = load3(hit_array, stride, i);
+    const vec3 tuv = LOAD3(hit_array, stride, i);
     __global int *out = records + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * 4;
     out[0] = hit_index[i];
     out[1] = as_int(tuv.x);

@@ -29,38 +29,39 @@ float highlight(float cosine, int exponent, float shininess)
 #endif
 }
 
+/* The factor that turns a normal to the side that `direction` comes from. */
+float side_toward(vec3 normal, vec3 direction)
+{
+    return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;
+}
+
 #if RT_TRIANGLES
-/* The geometric normal, unit. It is made from the edges as they are and made unit last: a unit
- * edge would shrink the triangle, a vector left as it is would turn highlights white. */
-vec3 geometric_normal(rt_triangle triangle)
+/* The geometric normal, unit. It is made from the edges as they are and made unit last: made unit
+ * before the barycentric test it would shrink the triangle, left as it is it would turn highlights
+ * white. */
+void geometric_normal(rt_triangle triangle, vec3 *normal)
 {
     const vec3 e1 = {triangle.bx - triangle.ax, triangle.by - triangle.ay,
                      triangle.bz - triangle.az};
     const vec3 e2 = {triangle.cx - triangle.ax, triangle.cy - triangle.ay,
                      triangle.cz - triangle.az};
-    return normalize3(CROSS(vec3, e1, e2));
+    const vec3 n = CROSS(vec3, e1, e2);
+    *normal = SCALE(n, RECIPROCAL_LENGTH(n));
 }
 #endif
 
-/* `normal` turned to the side that `direction` comes from. */
-vec3 turn_toward(vec3 normal, vec3 direction)
-{
-    return DOT(normal, direction) > 0.0f ? scale(normal, -1.0f) : normal;
-}
-
 #if RT_SMOOTH
-/* The interpolated vertex normal on the side of `facing`, the geometric normal turned toward the
- * ray; `facing` itself where the vertex normals cancel. */
-vec3 smooth_normal(__global const float *n, float u, float v, vec3 facing)
+/* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
+ * the same side; leaves it where the vertex normals cancel. */
+void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
 {
     const float w = 1.0f - u - v;
     const vec3 sum = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
                       fma(v, n[8], fma(u, n[5], w * n[2]))};
-    const vec3 unit = normalize3(sum);
-    const float side = DOT(unit, facing);
-    if (!isfinite(side))
-        return facing;
-    return side < 0.0f ? scale(unit, -1.0f) : unit;
+    const vec3 unit = SCALE(sum, RECIPROCAL_LENGTH(sum));
+    const float side = DOT(unit, *normal);
+    if (isfinite(side))
+        *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
 }
 #endif
 
@@ -78,8 +79,8 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
     vec3 color = {surround.background_r, surround.background_g, surround.background_b};
 
     if (index != RT_MISS) {
-        const vec3 origin = load3(rays, stride, i);
-        const vec3 direction = load3(rays + RT_RAY_DX * step, stride, i);
+        const vec3 origin = LOAD3(rays, stride, i);
+        const vec3 direction = LOAD3(rays + RT_RAY_DX * step, stride, i);
         const float t = hit_array[RT_HIT_T * step + i];
         const vec3 point = {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
                             fma(t, direction.z, origin.z)};
@@ -88,7 +89,9 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
         if (index < sphere_count) {
             const rt_sphere sphere = spheres[index];
             const vec3 center = {sphere.cx, sphere.cy, sphere.cz};
-            normal = turn_toward(normalize3(SUB(vec3, point, center)), direction);
+            const vec3 radial = SUB(vec3, point, center);
+            normal = SCALE(radial, RECIPROCAL_LENGTH(radial));
+            normal = SCALE(normal, side_toward(normal, direction));
         }
 #endif
 #if RT_SPHERES && RT_TRIANGLES
@@ -97,13 +100,14 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
 #if RT_TRIANGLES
         {
             const int triangle = index - sphere_count;
-            normal = turn_toward(geometric_normal(triangles[triangle]), direction);
+            geometric_normal(triangles[triangle], &normal);
+            normal = SCALE(normal, side_toward(normal, direction));
 #if RT_SMOOTH
             const int record = normals_of[triangle];
             if (record >= 0)
-                normal = smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS,
-                                       hit_array[RT_HIT_U * step + i],
-                                       hit_array[RT_HIT_V * step + i], normal);
+                smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS,
+                              hit_array[RT_HIT_U * step + i], hit_array[RT_HIT_V * step + i],
+                              &normal);
 #endif
         }
 #endif
@@ -116,7 +120,7 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
                                    fma(-light.w, point.z, light.z)};
             /* A light exactly at the point has no direction and gives nothing. */
             const float lit = DOT(to_light, to_light) > 0.0f ? 1.0f : 0.0f;
-            const vec3 l = normalize3(to_light);
+            const vec3 l = SCALE(to_light, RECIPROCAL_LENGTH(to_light));
             const float n_dot_l = DOT(normal, l);
             const float twice = 2.0f * n_dot_l;
             const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),

@@ -1,6 +1,7 @@
 /* What the scalar stages share: a vector of one ray, and correctly rounded scalar division and
  * square root. A struct of scalars, not float3: runtimes vectorise these stages across work-items,
- * and a vector type inside would stop them. */
+ * and a vector type inside would stop them. Macros, not functions: a struct that a function returns
+ * leaves aliasing intrinsics behind where it is inlined, which Oclgrind 21.10 does not know. */
 
 typedef struct vec3 {
     float x, y, z;
@@ -20,18 +21,8 @@ typedef struct vec3 {
 #define ROOT_1(a) (ROOT((real)(a)).s0)
 #endif
 
-vec3 scale(vec3 v, float s)
-{
-    return (vec3){v.x * s, v.y * s, v.z * s};
-}
-
-/* Unit length up to rounding; NaN for the zero vector. */
-vec3 normalize3(vec3 v)
-{
-    return scale(v, DIVIDE_1(1.0f, ROOT_1(DOT(v, v))));
-}
-
-vec3 load3(__global const float *array, int stride, size_t i)
-{
-    return (vec3){array[i], array[stride + i], array[2 * (size_t)stride + i]};
-}
+#define SCALE(v, s) ((vec3){(v).x * (s), (v).y * (s), (v).z * (s)})
+/* NaN for the zero vector, through 0 * infinity. */
+#define RECIPROCAL_LENGTH(v) DIVIDE_1(1.0f, ROOT_1(DOT(v, v)))
+#define LOAD3(array, stride, i)                                                                    \
+    ((vec3){(array)[i], (array)[(stride) + (i)], (array)[2 * (size_t)(stride) + (i)]})
