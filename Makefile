@@ -89,7 +89,7 @@ $(BUILD)/tests_%.o: tests/%.c | $(BUILD)
 
 $(BUILD)/test_%: tests/test_%.c $(TEST_HELPERS) $(LIBRARY)
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lcmocka -lm
+	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lm
 
 asan: deps
 	@ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \

@@ -33,11 +33,12 @@ void hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index)
         return;
     /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
      * their product c / dd. */
-    const real q = b + copysign(ROOT(r->dd * discriminant), b);
+    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
+    const real root = ROOT(r->dd * discriminant);
+    const real q = b + SELECT(-root, root, ahead);
     const real c = fma(-radius, radius, DOT(f, f));
     const real sum = DIVIDE(q, r->dd);
     const real product = DIVIDE(c, q);
-    const mask ahead = MASK(b >= (real)0.0f);
     const real near = SELECT(sum, product, ahead);
     const real far = SELECT(product, sum, ahead);
     const real t = SELECT(far, near, MASK(near > r->tmin));

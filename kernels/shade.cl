@@ -45,8 +45,11 @@ void geometric_normal(rt_triangle triangle, vec3 *normal)
                      triangle.bz - triangle.az};
     const vec3 e2 = {triangle.cx - triangle.ax, triangle.cy - triangle.ay,
                      triangle.cz - triangle.az};
-    const vec3 n = CROSS(vec3, e1, e2);
-    *normal = SCALE(n, RECIPROCAL_LENGTH(n));
+    /* Each edge by a power of two of its own, or the product of long ones would overflow. */
+    const vec3 f1 = SCALE(e1, moderating_factor(e1));
+    const vec3 f2 = SCALE(e2, moderating_factor(e2));
+    *normal = CROSS(vec3, f1, f2);
+    make_unit(normal);
 }
 #endif
 
@@ -56,9 +59,9 @@ void geometric_normal(rt_triangle triangle, vec3 *normal)
 void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
 {
     const float w = 1.0f - u - v;
-    const vec3 sum = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
-                      fma(v, n[8], fma(u, n[5], w * n[2]))};
-    const vec3 unit = SCALE(sum, RECIPROCAL_LENGTH(sum));
+    vec3 unit = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
+                 fma(v, n[8], fma(u, n[5], w * n[2]))};
+    make_unit(&unit);
     const float side = DOT(unit, *normal);
     if (isfinite(side))
         *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
@@ -89,8 +92,8 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
         if (index < sphere_count) {
             const rt_sphere sphere = spheres[index];
             const vec3 center = {sphere.cx, sphere.cy, sphere.cz};
-            const vec3 radial = SUB(vec3, point, center);
-            normal = SCALE(radial, RECIPROCAL_LENGTH(radial));
+            normal = SUB(vec3, point, center);
+            make_unit(&normal);
             normal = SCALE(normal, side_toward(normal, direction));
         }
 #endif
@@ -116,11 +119,11 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
                        surround.ambient_b * m.ka_b};
         for (int k = 0; k < light_count; ++k) {
             const rt_light light = lights[k];
-            const vec3 to_light = {fma(-light.w, point.x, light.x), fma(-light.w, point.y, light.y),
-                                   fma(-light.w, point.z, light.z)};
+            vec3 l = {fma(-light.w, point.x, light.x), fma(-light.w, point.y, light.y),
+                      fma(-light.w, point.z, light.z)};
+            make_unit(&l);
             /* A light exactly at the point has no direction and gives nothing. */
-            const float lit = DOT(to_light, to_light) > 0.0f ? 1.0f : 0.0f;
-            const vec3 l = SCALE(to_light, RECIPROCAL_LENGTH(to_light));
+            const float lit = isfinite(l.x) ? 1.0f : 0.0f;
             const float n_dot_l = DOT(normal, l);
             const float twice = 2.0f * n_dot_l;
             const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),

@@ -22,7 +22,25 @@ typedef struct vec3 {
 #endif
 
 #define SCALE(v, s) ((vec3){(v).x * (s), (v).y * (s), (v).z * (s)})
-/* NaN for the zero vector, through 0 * infinity. */
+/* The factor that makes a vector unit whose components are of moderate size; infinite for the zero
+ * vector, which then becomes NaN. */
 #define RECIPROCAL_LENGTH(v) DIVIDE_1(1.0f, ROOT_1(DOT(v, v)))
 #define LOAD3(array, stride, i)                                                                    \
     ((vec3){(array)[i], (array)[(stride) + (i)], (array)[2 * (size_t)(stride) + (i)]})
+
+/* The power of two that brings the largest component of `v` to [1, 2), so that squares and products
+ * of components neither overflow nor vanish; multiplying by it is exact. For vectors whose largest
+ * component is zero, denormal or above 2^126 it is some finite power of two. */
+float moderating_factor(vec3 v)
+{
+    const float largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    const int exponent = as_int(largest) & 0x7f800000;
+    return as_float(0x7f000000 - min(exponent, 0x7e800000));
+}
+
+/* Makes a vector unit, whatever its length; NaN for the zero vector. */
+void make_unit(vec3 *v)
+{
+    const vec3 moderate = SCALE(*v, moderating_factor(*v));
+    *v = SCALE(moderate, RECIPROCAL_LENGTH(moderate));
+}

@@ -171,10 +171,8 @@ static bool verify(run *r)
            d.rms_step, d.non_finite);
     if (fflush(stdout) != 0)
         return rt_status_fail(&r->status, RT_ERROR_OUTPUT, "rt: cannot write standard output");
-    if (d.hits == 0 && d.pixels == 0 && d.non_finite == 0)
+    if (d.hits == 0 && d.pixels == 0)
         return true;
-    if (d.first_x < 0)
-        return rt_status_fail(&r->status, RT_DIFFERENT, "rt: some pixels are not finite");
     return rt_status_fail(&r->status, RT_DIFFERENT,
                           "rt: the device and the scalar path differ, first at pixel %d,%d",
                           d.first_x, d.first_y);

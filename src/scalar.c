@@ -11,12 +11,20 @@ typedef double real;
 #define FMA fma
 #define SQRT sqrt
 #define POW pow
+#define FABS fabs
+#define FMAX fmax
+#define LDEXP ldexp
+#define ILOGB ilogb
 #else
 typedef float real;
 #define NAME(verb) rt_scalar_float_##verb
 #define FMA fmaf
 #define SQRT sqrtf
 #define POW powf
+#define FABS fabsf
+#define FMAX fmaxf
+#define LDEXP ldexpf
+#define ILOGB ilogbf
 #endif
 
 typedef struct vec {
@@ -70,9 +78,22 @@ static vec cross(vec a, vec b)
                  FMA(a.x, b.y, -(a.y * b.x))};
 }
 
+/* `a` times the power of two that brings its largest component to [1, 2): exact, and products of
+ * what comes out neither overflow nor vanish. */
+static vec moderate(vec a)
+{
+    const real largest = FMAX(FABS(a.x), FMAX(FABS(a.y), FABS(a.z)));
+    if (!(largest > 0 && isfinite(largest)))
+        return a;
+    const int k = -ILOGB(largest);
+    return (vec){LDEXP(a.x, k), LDEXP(a.y, k), LDEXP(a.z, k)};
+}
+
+/* NaN for the zero vector. */
 static vec unit(vec a)
 {
-    return times(a, (real)1 / SQRT(dot(a, a)));
+    const vec m = moderate(a);
+    return times(m, (real)1 / SQRT(dot(m, m)));
 }
 
 /* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
@@ -165,7 +186,7 @@ static vec triangle_normal(const rt_triangle *triangle)
     const vec a = vec_of(triangle->ax, triangle->ay, triangle->az);
     const vec b = vec_of(triangle->bx, triangle->by, triangle->bz);
     const vec c = vec_of(triangle->cx, triangle->cy, triangle->cz);
-    return unit(cross(minus(b, a), minus(c, a)));
+    return unit(cross(moderate(minus(b, a)), moderate(minus(c, a))));
 }
 
 /* The vertex normals weighed by u and v, on the side of the geometric normal `facing`. */
@@ -216,9 +237,9 @@ static vec add_light(vec color, const rt_light *light, const rt_material *m, vec
 {
     const vec place = vec_of(light->x, light->y, light->z);
     const vec to_light = light->w != 0.0f ? minus(place, point) : place;
-    if (!(dot(to_light, to_light) > 0))
-        return color; /* a light exactly at the point has no direction */
     const vec l = unit(to_light);
+    if (!isfinite(l.x))
+        return color; /* a light exactly at the point has no direction */
     const real n_dot_l = dot(normal, l);
     const vec mirrored = add_scaled(normal, 2 * n_dot_l, times(l, -1));
     const real r_dot_v = -dot(mirrored, direction);

@@ -18,6 +18,8 @@
 /* Characters of a token that a message shows. */
 #define SHOWN_CHARACTERS 40
 #define EXPECTATION_SIZE 160
+/* Bytes of a path that cannot be read that a message shows. */
+#define PATH_SHOWN 200
 
 typedef struct token {
     const char *text; /* into the source; quotes not included */
@@ -78,15 +80,29 @@ static int column_of(const source *src, const char *at)
     rt_status_fail((parser_)->status, RT_ERROR_SCENE, "%s:%d:%d: error: " format_, (src_)->name,   \
                    (src_)->line, column_of(src_, at_), __VA_ARGS__)
 
-static int shown_length(size_t length)
+/* A token as it stands in the file, quotes and all: where it begins, and the three arguments of
+ * "%.*s%s" that show it, cut where it is long. */
+static const char *start_of(const token *tok)
 {
-    return length > SHOWN_CHARACTERS ? SHOWN_CHARACTERS : (int)length;
+    return tok->text - tok->quoted;
 }
 
-static const char *ellipsis(size_t length)
+static size_t span_of(const token *tok)
 {
-    return length > SHOWN_CHARACTERS ? "..." : "";
+    return tok->length + 2 * (size_t)tok->quoted;
 }
+
+static int shown_length(const token *tok)
+{
+    return span_of(tok) > SHOWN_CHARACTERS ? SHOWN_CHARACTERS : (int)span_of(tok);
+}
+
+static const char *ellipsis(const token *tok)
+{
+    return span_of(tok) > SHOWN_CHARACTERS ? "..." : "";
+}
+
+#define SHOWN(tok) shown_length(tok), start_of(tok), ellipsis(tok)
 
 static bool is_blank(char c)
 {
@@ -112,6 +128,11 @@ static void next_line(source *src)
     ++src->line;
 }
 
+static bool fail_nul(parser *p, source *src, const char *at)
+{
+    return FAIL_AT(p, src, at, "%s", "a NUL byte: this is not a text file");
+}
+
 /* The next token of the line; length 0 and not quoted at its end. False after an error. */
 static bool next_token(parser *p, source *src, token *tok)
 {
@@ -127,11 +148,14 @@ static bool next_token(parser *p, source *src, token *tok)
         if (src->cursor >= src->end || *src->cursor != '"')
             return FAIL_AT(p, src, tok->text - 1, "%s", "a quote is opened and not closed");
         tok->length = (size_t)(src->cursor++ - tok->text);
+        const char *nul = memchr(tok->text, '\0', tok->length);
+        if (nul)
+            return fail_nul(p, src, nul);
         return true;
     }
     while (!is_line_end(src, src->cursor) && !is_blank(*src->cursor) && *src->cursor != '"') {
         if (*src->cursor == '\0')
-            return FAIL_AT(p, src, src->cursor, "%s", "a NUL byte: this is not a text file");
+            return fail_nul(p, src, src->cursor);
         ++src->cursor;
     }
     tok->length = (size_t)(src->cursor - tok->text);
@@ -158,16 +182,32 @@ static void name_field(const rt_statement *statement, const rt_field *field, cha
         snprintf(text, size, "'%s'", statement->keyword);
 }
 
+/* Says where a number is something else, or nothing, as a float: without it a message such as
+ * "found '1e-50'; 'radius' takes a number above 0" would seem wrong. */
+static const char *rounding_note(const token *tok, const rt_field *field, char *text, size_t size)
+{
+    float rounded = 0.0f;
+    const enum rt_number_result result = tok->quoted || field->kind == RT_VALUE_COUNT
+                                             ? RT_NUMBER_SYNTAX
+                                             : rt_number_float(tok->text, tok->length, &rounded);
+    text[0] = '\0';
+    if (result == RT_NUMBER_RANGE)
+        snprintf(text, size, " (too large for a float)");
+    else if (result == RT_NUMBER_OK && (double)rounded != strtod(tok->text, NULL))
+        snprintf(text, size, " (%.9g as a float)", (double)rounded);
+    return text;
+}
+
 static bool fail_value(parser *p, source *src, const line *l, const rt_field *field,
                        const token *found)
 {
-    char expected[EXPECTATION_SIZE], name[EXPECTATION_SIZE];
+    char expected[EXPECTATION_SIZE], name[EXPECTATION_SIZE], note[EXPECTATION_SIZE];
     rt_field_expectation(field, expected, sizeof expected);
     name_field(l->statement, field, name, sizeof name);
     if (is_end(found))
-        return FAIL_AT(p, src, found->text, "the line ends; %s takes %s", name, expected);
-    return FAIL_AT(p, src, found->text, "found '%.*s%s'; %s takes %s", shown_length(found->length),
-                   found->text, ellipsis(found->length), name, expected);
+        return FAIL_AT(p, src, start_of(found), "the line ends; %s takes %s", name, expected);
+    return FAIL_AT(p, src, start_of(found), "found '%.*s%s'%s; %s takes %s", SHOWN(found),
+                   rounding_note(found, field, note, sizeof note), name, expected);
 }
 
 static bool is_in_range(const rt_field *field, double x)
@@ -284,11 +324,10 @@ static bool fail_unknown_name(parser *p, source *src, const line *l, const token
     char list[EXPECTATION_SIZE];
     list_names(list, sizeof list, names, count);
     if (count == 0)
-        return FAIL_AT(p, src, tok->text, "found '%.*s%s' after '%s'; the statement is complete",
-                       shown_length(tok->length), tok->text, ellipsis(tok->length),
+        return FAIL_AT(p, src, start_of(tok),
+                       "found '%.*s%s' after '%s'; the statement is complete", SHOWN(tok),
                        l->statement->keyword);
-    return FAIL_AT(p, src, tok->text, "found '%.*s%s'; '%s' has the names %s",
-                   shown_length(tok->length), tok->text, ellipsis(tok->length),
+    return FAIL_AT(p, src, start_of(tok), "found '%.*s%s'; '%s' has the names %s", SHOWN(tok),
                    l->statement->keyword, list);
 }
 
@@ -321,7 +360,7 @@ static bool read_fields(parser *p, source *src, line *l)
         if (index == count)
             return fail_unknown_name(p, src, l, &tok);
         if (l->values[index].given)
-            return FAIL_AT(p, src, tok.text, "'%s' is given twice",
+            return FAIL_AT(p, src, start_of(&tok), "'%s' is given twice",
                            l->statement->fields[index].name);
         if (!read_value(p, src, l, index))
             return false;
@@ -370,8 +409,8 @@ static bool define_material(parser *p, source *src, const token *word, int32_t i
     free_name(name);
     if (!node)
         return rt_status_no_memory(p->status, "a material");
-    return FAIL_AT(p, src, word->text, "material '%.*s' is defined above already",
-                   shown_length(word->length), word->text);
+    return FAIL_AT(p, src, start_of(word), "material '%.*s%s' is defined above already",
+                   SHOWN(word));
 }
 
 /* The index of the material that a token names, or -1 after an error. Primitives mostly come in
@@ -394,9 +433,8 @@ static int32_t find_material(parser *p, source *src, const token *word)
         p->last_name = *(material_name **)node;
         return p->last_name->index;
     }
-    FAIL_AT(p, src, word->text,
-            "found '%.*s%s'; 'material' takes the name of a material defined above",
-            shown_length(word->length), word->text, ellipsis(word->length));
+    FAIL_AT(p, src, start_of(word),
+            "found '%.*s%s'; 'material' takes the name of a material defined above", SHOWN(word));
     return -1;
 }
 
@@ -424,7 +462,8 @@ static bool apply_camera(parser *p, source *src, const line *l)
         camera->vfov = l->values[3].number[0];
     if (camera->from.x == camera->at.x && camera->from.y == camera->at.y &&
         camera->from.z == camera->at.z)
-        return FAIL_AT(p, src, l->start, "%s", "'from' and 'at' of 'camera' are the same point");
+        return FAIL_AT(p, src, l->start, "%s",
+                       "'from' and 'at' of 'camera' are the same point as floats");
     return true;
 }
 
@@ -463,6 +502,19 @@ static bool apply_sphere(parser *p, source *src, const line *l)
     return material >= 0 && rt_scene_add_sphere(p->scene, &sphere, material, p->status);
 }
 
+/* The vertex normals by a common power of two, which is exact and keeps their weights, so that sums
+ * of them neither overflow nor vanish. */
+static void gather_normals(const value *normals, float record[RT_NORMAL_COMPONENTS])
+{
+    float largest = 0.0f;
+    for (int i = 0; i < RT_NORMAL_COMPONENTS; ++i) {
+        record[i] = normals[i / 3].number[i % 3];
+        largest = fmaxf(largest, fabsf(record[i]));
+    }
+    for (int i = 0; largest > 0.0f && i < RT_NORMAL_COMPONENTS; ++i)
+        record[i] = ldexpf(record[i], -ilogbf(largest));
+}
+
 static bool apply_triangle(parser *p, source *src, const line *l)
 {
     const value *a = &l->values[0], *b = &l->values[1], *c = &l->values[2];
@@ -483,8 +535,7 @@ static bool apply_triangle(parser *p, source *src, const line *l)
             p->degenerate_place = (rt_place){src->name, src->line};
     }
     float record[RT_NORMAL_COMPONENTS];
-    for (int i = 0; i < RT_NORMAL_COMPONENTS; ++i)
-        record[i] = normals[i / 3].number[i % 3];
+    gather_normals(normals, record);
     if (given && !p->scene->smooth_place.line)
         p->scene->smooth_place = (rt_place){src->name, src->line};
     return rt_scene_add_triangle(p->scene, &t, given ? record : NULL, material, p->status);
@@ -514,12 +565,14 @@ static bool apply_include(parser *p, source *src, const line *l)
     int depth = 1;
     for (const source *s = src; s; s = s->includer, ++depth)
         if (strcmp(s->name, path) == 0 || depth > INCLUDE_DEPTH_MAX) {
-            FAIL_AT(p, src, word->text, "'%s' %s", path,
-                    depth > INCLUDE_DEPTH_MAX ? "is included too deep" : "includes itself");
+            if (depth > INCLUDE_DEPTH_MAX)
+                FAIL_AT(p, src, start_of(word), "%d files deep in includes", INCLUDE_DEPTH_MAX);
+            else
+                FAIL_AT(p, src, start_of(word), "'%s' includes itself", path);
             free(path);
             return false;
         }
-    const bool done = read_file(p, path, src, word->text);
+    const bool done = read_file(p, path, src, start_of(word));
     free(path);
     return done;
 }
@@ -570,8 +623,16 @@ static bool fail_unknown_statement(parser *p, source *src, const token *tok)
             names[count++] = rt_statements[id].keyword;
     char list[EXPECTATION_SIZE];
     list_names(list, sizeof list, names, count);
-    return FAIL_AT(p, src, tok->text, "found '%.*s%s'; a line begins with one of %s",
-                   shown_length(tok->length), tok->text, ellipsis(tok->length), list);
+    return FAIL_AT(p, src, start_of(tok), "found '%.*s%s'; a line begins with one of %s",
+                   SHOWN(tok), list);
+}
+
+static bool is_keyword(const token *tok)
+{
+    for (int i = 0; i < RT_STATEMENT_COUNT; ++i)
+        if (equals(tok, rt_statements[i].keyword))
+            return true;
+    return false;
 }
 
 /* The statement that the line's first word, and for variants the second, stand for. */
@@ -595,19 +656,20 @@ static bool find_statement(parser *p, source *src, const token *keyword, enum rt
     }
     if (!is_variant)
         return fail_unknown_statement(p, src, keyword);
-    const char *names[RT_STATEMENT_COUNT];
+    const char *names[RT_STATEMENT_COUNT], *word = NULL;
     size_t count = 0;
     for (int i = 0; i < RT_STATEMENT_COUNT; ++i)
-        if (rt_statements[i].variant && equals(keyword, rt_statements[i].keyword))
+        if (rt_statements[i].variant && equals(keyword, rt_statements[i].keyword)) {
+            word = rt_statements[i].keyword;
             names[count++] = rt_statements[i].variant;
+        }
     char list[EXPECTATION_SIZE];
     list_names(list, sizeof list, names, count);
     if (is_end(&second))
-        return FAIL_AT(p, src, second.text, "the line ends; '%.*s' takes one of %s",
-                       shown_length(keyword->length), keyword->text, list);
-    return FAIL_AT(p, src, second.text, "found '%.*s%s'; '%.*s' takes one of %s",
-                   shown_length(second.length), second.text, ellipsis(second.length),
-                   shown_length(keyword->length), keyword->text, list);
+        return FAIL_AT(p, src, start_of(&second), "the line ends; '%s' takes one of %s", word,
+                       list);
+    return FAIL_AT(p, src, start_of(&second), "found '%.*s%s'; '%s' takes one of %s",
+                   SHOWN(&second), word, list);
 }
 
 static bool check_order(parser *p, source *src, const line *l, enum rt_statement_id id)
@@ -626,10 +688,13 @@ static bool read_line(parser *p, source *src, const token *keyword)
 {
     line l = {.start = keyword->text};
     enum rt_statement_id id = RT_STATEMENT_COUNT;
-    if (!p->has_version && !equals(keyword, "rt")) {
+    const bool in_order = p->has_version || equals(keyword, "rt");
+    if (!in_order) {
         p->has_version = true; /* said once */
-        FAIL_AT(p, src, keyword->text, "found '%.*s%s'; a scene begins with 'rt 1'",
-                shown_length(keyword->length), keyword->text, ellipsis(keyword->length));
+        FAIL_AT(p, src, start_of(keyword), "found '%.*s%s'; a scene begins with 'rt 1'",
+                SHOWN(keyword));
+        if (!is_keyword(keyword))
+            return false;
     }
     if (!find_statement(p, src, keyword, &id))
         return false;
@@ -645,7 +710,7 @@ static bool read_line(parser *p, source *src, const token *keyword)
             apply_material(p, src, &l);
         return false;
     }
-    return apply(p, src, &l, id);
+    return apply(p, src, &l, id) && in_order;
 }
 
 static bool read_text(parser *p, source *src)
@@ -677,7 +742,7 @@ static bool read_file(parser *p, const char *path, source *includer, const char 
     rt_file_text text;
     const char *reason = rt_file_read(is_stdin ? NULL : path, &text);
     if (reason && includer)
-        return FAIL_AT(p, includer, at, "cannot read '%s': %s", path, reason);
+        return FAIL_AT(p, includer, at, "cannot read '%.*s': %s", PATH_SHOWN, path, reason);
     if (reason)
         return rt_status_fail(p->status, RT_ERROR_SCENE, "rt: cannot read '%s': %s", path, reason);
     source src = {name, text.bytes + text.length, text.bytes, text.bytes, 1, includer};

@@ -21,6 +21,16 @@ static bool reserve(rt_status *status, size_t extra)
     return true;
 }
 
+/* What files say must not steer a terminal: control characters become question marks. */
+static void make_printable(char *text, size_t length)
+{
+    for (size_t i = 0; i < length; ++i) {
+        const unsigned char c = (unsigned char)text[i];
+        if ((c < 0x20 && c != '\n' && c != '\t') || c == 0x7f)
+            text[i] = '?';
+    }
+}
+
 static void append(rt_status *status, const char *format, va_list arguments)
 {
     va_list again;
@@ -32,6 +42,7 @@ static void append(rt_status *status, const char *format, va_list arguments)
         vsnprintf(end, (size_t)length + 1, format, again);
         end[length] = '\n';
         end[length + 1] = '\0';
+        make_printable(end, (size_t)length);
         status->length += (size_t)length + 1;
     }
     va_end(again);

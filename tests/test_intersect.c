@@ -74,7 +74,9 @@ static void sphere(void **state)
         {RAY(0, 0, 0.5f, 0, 0, 1), 0, 0.5f, 0, 0, 1e-7f}, /* from inside: the far root */
         {RAY(0, 0, 0.5f, 0, 0, -1), 0, 1.5f, 0, 0, 1e-7f},
         {RAY(0.5f, 0, 5, 0, 0, -1), 0, 5.0f - root, 0, 0, 1e-6f},
-        {RAY(0, 0, 5, 0, 0, -2), 0, 2.0f, 0, 0, 0.0f}, /* t is in units of the direction */
+        {RAY(0, 0, 5, 0, 0, -2), 0, 2.0f, 0, 0, 0.0f},    /* t is in units of the direction */
+        {RAY(0, 0.5f, 0, 0, 0, 1), 0, root, 0, 0, 1e-7f}, /* at right angles to the centre */
+        {RAY(0, 0.5f, 0, -0.0f, -0.0f, -1), 0, root, 0, 0, 1e-7f},
         {RAY(1.5f, 0, 5, 0, 0, -1), RT_MISS, 0, 0, 0, 0},
         {RAY(1, 0, 5, 0, 0, -1), 0, 5.0f, 0, 0, 0.0f},                   /* tangent */
         {{{0, 0, 5}, {0, 0, -1}, 4.5f, INFINITY}, 0, 6.0f, 0, 0, 1e-6f}, /* near root before tmin */

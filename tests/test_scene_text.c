@@ -77,7 +77,7 @@ static void every_statement(void **state)
     assert_int_equal(s.triangle_normals[0], -1);
     assert_int_equal(s.triangle_normals[1], 0);
     for (int i = 0; i < 9; ++i)
-        assert_true(s.normals[i] == (float)(i + 1));
+        assert_true(s.normals[i] == (float)(i + 1) / 8.0f); /* 9 brought to [1, 2) */
     assert_int_equal(s.cull, RT_CULL_FRONT);
     assert_int_equal(s.winding, RT_WINDING_CW);
     assert_int_equal(s.cull_place.line, 14);

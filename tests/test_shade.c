@@ -187,6 +187,31 @@ static void strange_vertex_normals(void **state)
     assert_color(text, 1.0f, 1.0f, 1.0f);
 }
 
+/* Normals and the way to a light come out unit though squares of their components overflow or
+ * vanish. */
+static void far_from_unit_scale(void **state)
+{
+    (void)state;
+    static const char *const sizes[] = {"1e-10", "1e10", "1e12"};
+    for (int i = 0; i < 3; ++i) {
+        char text[400];
+        const char *s = sizes[i];
+        snprintf(text, sizeof text,
+                 "image width 1 height 1\nlight directional direction 0 0 -1\n"
+                 "material m kd 1 0.5 0.25\ntriangle a -%s -%s -%s b %s -%s -%s c 0 %s -%s "
+                 "material m\n",
+                 s, s, s, s, s, s, s, s);
+        assert_color(text, 1.0f, 0.5f, 0.25f);
+        snprintf(
+            text, sizeof text,
+            "light directional direction 0 0 -1\nmaterial m kd 1 0 0\nimage width 1 height 1\n"
+            "triangle a -9 -9 -2 b 9 -9 -2 c 0 9 -2 material m na 0 0 %s nb 0 0 %s nc 0 0 %s\n",
+            i ? "1e30" : "1e-30", i ? "1e30" : "1e-30", i ? "1e30" : "1e-30");
+        assert_color(text, 1.0f, 0.0f, 0.0f);
+    }
+    assert_color("light point at 0 0 1e30\nmaterial m kd 1 1 1\n" PLANE, 1.0f, 1.0f, 1.0f);
+}
+
 /* ---- The three bugs ---- */
 
 /* The part of the picture that triangle.txt's triangle covers is what its projection says. */
@@ -251,8 +276,7 @@ static void a_long_normal_would_turn_highlights_white(void **state)
 {
     (void)state;
     assert_true(highlight_is_of_its_size());
-    assert_false(holds_with(highlight_is_of_its_size, "shade.cl",
-                            "*normal = SCALE(n, RECIPROCAL_LENGTH(n));", "*normal = n;"));
+    assert_false(holds_with(highlight_is_of_its_size, "shade.cl", "make_unit(normal);", ""));
 }
 
 static void swapped_edges_would_turn_the_normal_away(void **state)
@@ -261,7 +285,7 @@ static void swapped_edges_would_turn_the_normal_away(void **state)
     assert_true(lit_from_the_front());
     /* Turning normals toward the ray is what makes the order of the edges harmless ... */
     assert_true(
-        holds_with(lit_from_the_front, "shade.cl", "CROSS(vec3, e1, e2)", "CROSS(vec3, e2, e1)"));
+        holds_with(lit_from_the_front, "shade.cl", "CROSS(vec3, f1, f2)", "CROSS(vec3, f2, f1)"));
     /* ... and without it either order is wrong for one of the two windings. */
     assert_false(holds_with(lit_from_the_front, "shade.cl",
                             "return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;",
@@ -284,6 +308,7 @@ int main(void)
         cmocka_unit_test(a_sphere_is_lit_from_inside_too),
         cmocka_unit_test(smooth_normals),
         cmocka_unit_test(strange_vertex_normals),
+        cmocka_unit_test(far_from_unit_scale),
         cmocka_unit_test(a_unit_normal_too_early_would_shrink_the_triangle),
         cmocka_unit_test(a_long_normal_would_turn_highlights_white),
         cmocka_unit_test(swapped_edges_would_turn_the_normal_away),

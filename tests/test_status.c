@@ -43,12 +43,22 @@ static void long_messages_are_whole(void **state)
     rt_status_clear(&status);
 }
 
+static void control_characters_are_not_passed_on(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    rt_status_fail(&status, RT_ERROR_SCENE, "a\x1b[2Jb\rc\td\x7f");
+    assert_string_equal(status.text, "a?[2Jb?c\td?\n");
+    rt_status_clear(&status);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_error_decides_the_code),
         cmocka_unit_test(only_so_many_are_kept),
         cmocka_unit_test(long_messages_are_whole),
+        cmocka_unit_test(control_characters_are_not_passed_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

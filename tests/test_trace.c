@@ -62,7 +62,9 @@ static void fill_scene(rt_scene *scene, uint64_t seed, float size, enum rt_cull 
     }
 }
 
-/* Four kinds in turn: anywhere, aimed at edges and corners, axis-parallel, and with a segment. */
+/* Four kinds in turn: anywhere, aimed at edges and corners, axis-parallel, and with a segment; some
+ * of the first begin at a sphere's centre or at right angles to the way there, where roots cancel.
+ */
 static void fill_rays(const rt_scene *scene, uint64_t seed, float size, rt_ray *rays)
 {
     test_random random = {seed};
@@ -73,7 +75,15 @@ static void fill_rays(const rt_scene *scene, uint64_t seed, float size, rt_ray *
         vector(&random, 2.0f * size, r->origin);
         vector(&random, 1.0f, r->direction);
         const uint64_t bits = test_random_bits(&random);
-        if (i % 4 == 1) {
+        if (i % 16 == 0) {
+            const rt_sphere *sphere = &scene->spheres[bits % SPHERES];
+            const float along = i % 32 ? 0.0f : 0.5f * sphere->radius;
+            const float center[3] = {sphere->cx, sphere->cy, sphere->cz};
+            memcpy(r->origin, center, sizeof center);
+            r->origin[bits >> 8 & 1] += along;
+            if (along > 0.0f)
+                r->direction[bits >> 8 & 1] = bits & 0x1000 ? 0.0f : -0.0f;
+        } else if (i % 4 == 1) {
             float p[9];
             memcpy(p, &scene->triangles[bits % TRIANGLES], sizeof p);
             const float along = bits & 0x100000 ? test_random_float(&random, 0.0f, 1.0f) : 0.0f;
