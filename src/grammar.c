@@ -177,3 +177,21 @@ void rt_field_expectation(const rt_field *field, char *text, size_t size)
         break;
     }
 }
+
+void rt_grammar_print(FILE *out)
+{
+    fprintf(out, "| statement | name | value | default | meaning |\n|---|---|---|---|---|\n");
+    for (int id = 0; id < RT_STATEMENT_COUNT; ++id) {
+        const rt_statement *s = &rt_statements[id];
+        fprintf(out, "| `%s%s%s` | | | | %s%s |\n", s->keyword, s->variant ? " " : "",
+                s->variant ? s->variant : "", s->meaning, s->once ? "; at most once" : "");
+        for (size_t i = 0; i < rt_statement_field_count(s); ++i) {
+            const rt_field *field = &s->fields[i];
+            char expected[160];
+            rt_field_expectation(field, expected, sizeof expected);
+            fprintf(out, "| | %s%s%s | %s | %s | %s |\n", field->name ? "`" : "",
+                    field->name ? field->name : "(first)", field->name ? "`" : "", expected,
+                    field->fallback ? field->fallback : "required", field->meaning);
+        }
+    }
+}

@@ -4,6 +4,7 @@
 #define RT_GRAMMAR_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 enum rt_value_kind {
     RT_VALUE_NUMBER,    /* one float within [min, max], or (min, max) if `open` */
@@ -62,5 +63,8 @@ size_t rt_statement_field_count(const rt_statement *statement);
 
 /* Writes what the field's value must be, such as "a number above 0", to text[0..size). */
 void rt_field_expectation(const rt_field *field, char *text, size_t size);
+
+/* Prints the grammar as a Markdown table, made from the very table that the parser works by. */
+void rt_grammar_print(FILE *out);
 
 #endif

@@ -10,6 +10,7 @@
 #include "device.h"
 #include "effects.h"
 #include "file.h"
+#include "grammar.h"
 #include "image.h"
 #include "options.h"
 #include "render.h"
@@ -254,7 +255,7 @@ static bool act(run *r)
         printf("rt %s\n", RT_VERSION);
         return true;
     case RT_ACTION_GRAMMAR:
-        rt_scene_text_grammar(stdout);
+        rt_grammar_print(stdout);
         return true;
     case RT_ACTION_LIST:
         return list_devices(r);

@@ -4,7 +4,6 @@
 #define RT_SCENE_TEXT_H
 
 #include <stdbool.h>
-#include <stdio.h>
 
 #include "scene.h"
 #include "status.h"
@@ -14,8 +13,5 @@
  * RT_STATUS_SHOWN messages "file:line:column: error: ..."; lines count from 1, columns from 1 in
  * characters of UTF-8. The scene may then be partly filled and is still the caller's to clear. */
 bool rt_scene_text_read(rt_scene *scene, const char *path, rt_status *status);
-
-/* Prints the grammar as a Markdown table, made from the very table that the parser works by. */
-void rt_scene_text_grammar(FILE *out);
 
 #endif

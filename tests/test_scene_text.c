@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "grammar.h"
 #include "scene_text.h"
 
 static void assert_vector(rt_vec3 v, float x, float y, float z)
@@ -270,7 +271,7 @@ static void the_readme_has_the_grammar(void **state)
     size_t size = 0;
     FILE *stream = open_memstream(&grammar, &size);
     assert_non_null(stream);
-    rt_scene_text_grammar(stream);
+    rt_grammar_print(stream);
     fclose(stream);
     char *readme = test_read_file("README.md", NULL);
     assert_non_null(readme);
