@@ -21,8 +21,9 @@ struct rt_polygon_node {
 
 /* From the one that is always right to those that save what they can. */
 enum rule {
+    RULE_SPIKE,    /* no area, and both neighbours on one side: goes before ears stand on it */
     RULE_EAR,      /* convex, and nothing in its triangle, border included */
-    RULE_FLAT,     /* no area: repeats a neighbour, lies between both, or is a spike's tip */
+    RULE_FLAT,     /* no area: as above, or between both neighbours */
     RULE_EAR_LEFT, /* what RULE_FLAT has uncovered */
     RULE_TOUCHED,  /* flat, or convex with nothing strictly inside: for outlines that touch */
     RULE_FAN       /* edges cross, so that there is no ear: anything that ends */
@@ -48,7 +49,7 @@ static bool reserve(rt_polygon *polygon, size_t count)
     rt_polygon_clear(polygon);
     const size_t capacity = count < 16 ? 16 : 2 * count;
     polygon->triangles = malloc(3 * capacity * sizeof *polygon->triangles);
-    polygon->nodes = malloc(capacity * sizeof *polygon->nodes);
+    polygon->nodes = calloc(capacity, sizeof *polygon->nodes);
     polygon->blockers = malloc(capacity * sizeof *polygon->blockers);
     if (!polygon->triangles || !polygon->nodes || !polygon->blockers) {
         rt_polygon_clear(polygon);
@@ -156,6 +157,8 @@ static bool can_clip(rt_polygon *polygon, int32_t i, enum rule rule)
     const double twice = area(a, b, c);
     if (rule == RULE_FAN)
         return true;
+    if (rule == RULE_SPIKE)
+        return twice == 0.0 && (a->x - b->x) * (c->x - b->x) + (a->y - b->y) * (c->y - b->y) >= 0.0;
     if (rule == RULE_FLAT || (rule == RULE_TOUCHED && twice == 0.0))
         return twice == 0.0;
     if (!(twice > 0.0))
@@ -197,7 +200,7 @@ bool rt_polygon_split(rt_polygon *polygon, const float *points, size_t count)
     if (!reserve(polygon, count))
         return false;
     make_ring(polygon, points, count);
-    enum rule rule = RULE_EAR;
+    enum rule rule = RULE_SPIKE;
     size_t emitted = 0, left = count, misses = 0;
     int32_t i = 1; /* so that the first corner stays and a convex polygon becomes its fan */
     while (left > 3) {
