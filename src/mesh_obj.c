@@ -33,8 +33,8 @@ typedef struct reader {
     bool is_forward; /* first round: a face names what is defined below, so faces have to wait */
     bool is_second;  /* second round: everything but faces is there already */
     int32_t material;
-    void *names; /* tsearch tree of material_name */
-    bool lacks_library;
+    void *names;          /* tsearch tree of material_name */
+    size_t missing_count; /* libraries that cannot be read */
     size_t unknown_count; /* uses of materials that no library has, and the first of them */
     rt_token unknown;
 } reader;
@@ -100,7 +100,8 @@ static bool read_libraries(reader *r)
         const char *reason = read_library(r, name, &good);
         if (!reason)
             continue;
-        r->lacks_library = true;
+        if (r->missing_count++ >= RT_STATUS_SHOWN)
+            continue;
         rt_text_warn_found(text, name, "the library cannot be read, and is left out: %s", reason);
     }
     return good;
@@ -182,8 +183,11 @@ static bool resolve(reader *r, rt_token token, const pool *from, int64_t value, 
     }
     if (stored == 0)
         return rt_text_fail_found(&r->text, token, "the file has no %s", from->name);
-    return rt_text_fail_found(&r->text, token, "%s go from 1 to %lld, or from -%lld to -1 here",
-                              from->name, (long long)stored, (long long)above);
+    char below[48] = "";
+    if (above > 0)
+        snprintf(below, sizeof below, ", or from -%lld to -1 here", (long long)above);
+    return rt_text_fail_found(&r->text, token, "%s go from 1 to %lld%s", from->name,
+                              (long long)stored, below);
 }
 
 /* Reads v, v/t, v//n or v/t/n; t and n may be left out behind their slash. */
@@ -267,7 +271,7 @@ static bool read_rounds(reader *r)
         return rt_text_fail(&r->text, r->text.start,
                             "no line begins with 'v', so this is no OBJ; a mesh is OBJ, PLY or "
                             "STL");
-    if (r->unknown_count > 0 && !r->lacks_library)
+    if (r->unknown_count > 0 && r->missing_count == 0)
         rt_text_warn_found(&r->text, r->unknown,
                            "'usemtl' takes the name of a material of a library named above "
                            "(%zu such)",

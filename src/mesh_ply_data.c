@@ -50,6 +50,15 @@ static const char *take(rows *r, const rt_ply_property *property, size_t size)
     return NULL;
 }
 
+/* Where the next value begins, for messages. */
+static const char *next_value(const rows *r)
+{
+    const char *at = r->text->cursor;
+    while (is_text(r) && (*at == '\n' || rt_text_is_blank(*at)))
+        ++at;
+    return at;
+}
+
 static uint64_t load(const char *bytes, size_t size, bool is_big)
 {
     uint64_t value = 0;
@@ -123,7 +132,7 @@ static bool read_integer(rows *r, const rt_ply_property *property, enum rt_ply_t
 /* Reads a list's count, which must leave room for its values. */
 static bool read_count(rows *r, const rt_ply_property *property, int64_t *count)
 {
-    const char *at = r->text->cursor;
+    const char *at = next_value(r);
     if (!read_integer(r, property, property->count_type, count))
         return false;
     const size_t left = (size_t)(r->text->end - r->text->cursor);
@@ -160,13 +169,10 @@ static bool skip_property(rows *r, const rt_ply_property *property)
 static bool read_corner(rows *r, const rt_ply_property *property, bool takes_end,
                         rt_mesh_corner *corner)
 {
-    const char *at = r->text->cursor;
+    const char *at = next_value(r);
     int64_t index;
     if (!read_integer(r, property, property->type, &index))
         return false;
-    if (is_text(r)) /* the number may stand on a later line */
-        while (*at == '\n' || rt_text_is_blank(*at))
-            ++at;
     if ((index < 0 || index >= r->header->vertex_count) && !(takes_end && index == -1))
         return FAIL_AT(r, at, "found the vertex %lld; this file has vertices from 0 to %lld",
                        (long long)index, (long long)r->header->vertex_count - 1);
@@ -176,7 +182,7 @@ static bool read_corner(rows *r, const rt_ply_property *property, bool takes_end
 
 static bool read_face(rows *r, const rt_ply_property *property)
 {
-    const char *at = r->text->cursor;
+    const char *at = next_value(r);
     int64_t count;
     if (!read_count(r, property, &count))
         return false;
@@ -221,7 +227,7 @@ static bool read_strips(rows *r, const rt_ply_property *property)
         return false;
     strip s = {.held = 0};
     for (int64_t i = 0; i < count; ++i) {
-        rt_mesh_corner corner;
+        rt_mesh_corner corner = {0, -1};
         if (!read_corner(r, property, true, &corner))
             return false;
         if (corner.vertex < 0)
