@@ -90,7 +90,7 @@ check-asan: $(BUILD)/rt $(TESTS)
 lint: deps deps-lint
 	clang-format --dry-run -Werror src/*.[ch] tests/*.[ch] tests/bench/*.[ch] kernels/*
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
-	    --suppress=missingIncludeSystem --error-exitcode=1 src tests/*.c
+	    --suppress=missingIncludeSystem --error-exitcode=1 src tests/*.c tests/bench/*.c
 	clang-tidy --quiet $(SOURCES) -- -std=c11 -Isrc $(PKG_CFLAGS)
 
 check-kernels: deps-clang

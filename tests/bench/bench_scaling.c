@@ -17,8 +17,9 @@
 #include "samples.h"
 
 #define SIZE_DEFAULT 1024
-/* Bytes a triangle mean nothing where pages and thread stacks weigh more than the triangles. */
-#define MEMORY_BAR_FROM 100000
+/* Below this, pages and thread stacks weigh more than the triangles, and bytes a triangle tell
+ * nothing. */
+#define MEMORY_FROM 1e5
 
 /* Resident bytes of this process, with what the allocator could give back given back; 0 where the
  * system does not tell. */
@@ -140,7 +141,7 @@ static bool measure_memory(bench *b, unsigned frequency)
                            .ours = {ours, ours, ours},
                            .theirs = {theirs, theirs, theirs},
                            .ratio = {ratio, ratio, ratio},
-                           .bar = triangles >= MEMORY_BAR_FROM ? 1.0 : 0.0};
+                           .bar = 1.0};
     return bench_report_add(&b->report, &row, &b->status);
 }
 
@@ -228,7 +229,7 @@ static bool measure_all(bench *b)
     if (s->size == 0)
         s->size = SIZE_DEFAULT;
     const double most = s->level >= 0 ? 20.0 * pow(4.0, s->level) : s->huge ? 1e7 : 1e6;
-    for (double count = 1e3; count <= most; count *= 10.0)
+    for (double count = MEMORY_FROM; count <= most; count *= 10.0)
         if (!measure_memory(b, bench_frequency((size_t)count)))
             return false;
     for (double count = 1e3; count <= most; count *= 10.0)

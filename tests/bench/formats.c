@@ -65,7 +65,7 @@ static double half_height(const rt_scene *s)
     return tan((double)s->camera.vfov * 3.14159265358979323846 / 360.0);
 }
 
-/* Tachyon 0.99's own language. Its picture is two units divided by the zoom high at distance 1, it
+/* Tachyon 0.99's own language. Its picture is one unit divided by the zoom high at distance 1, it
  * has a coefficient where rt has a colour, and it looks from the left-handed side, so z turns
  * round. Shadows are left out by the option -mediumshade. */
 static void tachyon_body(const rt_scene *s, FILE *out)
@@ -76,7 +76,7 @@ static void tachyon_body(const rt_scene *s, FILE *out)
             "Begin_Scene\nResolution %d %d\nCamera\n  Zoom %.9g\n  Aspectratio 1.0\n"
             "  Antialiasing 0\n  Raydepth 1\n  Center " XYZ "\n  Viewdir 0 0 1\n  Updir 0 1 0\n"
             "End_Camera\nBackground 0 0 0\n",
-            s->width, s->height, 1.0 / half_height(s), THREE(c->from.x, c->from.y, -c->from.z));
+            s->width, s->height, 0.5 / half_height(s), THREE(c->from.x, c->from.y, -c->from.z));
     for (size_t i = 0; i < s->light_count; ++i) {
         const rt_light *l = &s->lights[i];
         fprintf(out, "Light Center " XYZ " Rad 0.01 Color " XYZ "\n", THREE(l->x, l->y, -l->z),

@@ -146,9 +146,11 @@ static void print_row(const json_t *row, FILE *out)
     fputs(" | ", out);
     print_number(ratio, "median", 1.0, out);
     fputs(" | ", out);
-    print_number(ratio, "low", 1.0, out);
-    fputs(" to ", out);
-    print_number(ratio, "high", 1.0, out);
+    if (json_is_number(json_object_get(ratio, "median"))) {
+        print_number(ratio, "low", 1.0, out);
+        fputs(" to ", out);
+        print_number(ratio, "high", 1.0, out);
+    }
     fputs(" ", out);
     print_bar(row, out);
     print_hits(json_object_get(row, "hits"), out);
@@ -157,16 +159,17 @@ static void print_row(const json_t *row, FILE *out)
 
 void bench_report_markdown(const bench_report *report, FILE *out)
 {
-    const char *key;
-    json_t *value;
-    json_object_foreach(json_object_get(report->root, "machine"), key, value)
-        fprintf(out, "- %s: %s\n", key, json_string_value(value));
+    json_t *machine = json_object_get(report->root, "machine");
+    for (void *i = json_object_iter(machine); i; i = json_object_iter_next(machine, i))
+        fprintf(out, "- %s: %s\n", json_object_iter_key(i),
+                json_string_value(json_object_iter_value(i)));
     fputs(
         "\nMedians; ratio = other / rt, taken repeat by repeat, so above 1 rt is ahead. Hits: rt's"
         " count less the other's, of rt's; rays on which they disagree.\n\n"
         "| what | input | against | unit | rt | other | ratio | quartiles | bar | met | hits |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|\n",
         out);
-    size_t index;
-    json_array_foreach(json_object_get(report->root, "rows"), index, value) print_row(value, out);
+    const json_t *rows = json_object_get(report->root, "rows");
+    for (size_t i = 0; i < json_array_size(rows); ++i)
+        print_row(json_array_get(rows, i), out);
 }
