@@ -23,9 +23,12 @@ int bench_main(int argc, char **argv, bool (*measure)(bench *))
         bench_settings_help(argv[0]);
         return RT_OK;
     }
-    good = good && bench_report_open(&b.report, b.settings.json, &b.status) && measure(&b);
+    /* Written once before the work too: a file that cannot be written is known at once. */
+    good = good && bench_report_open(&b.report, b.settings.json, &b.status) &&
+           bench_report_write(&b.report, &b.status) && measure(&b);
     /* What was measured before an error is still worth having. */
-    good = b.report.root && bench_report_write(&b.report, &b.status) && good;
+    if (b.report.root && b.status.code != RT_ERROR_OUTPUT)
+        good = bench_report_write(&b.report, &b.status) && good;
     if (good && !b.report.agrees)
         good = rt_status_fail(&b.status, RT_DIFFERENT, "bench: hit counts differ");
     if (b.status.text)
