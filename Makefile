@@ -109,9 +109,9 @@ bench: deps bench-deps
 	@$(MAKE) --no-print-directory bench-run
 
 # A measurement that fails does not hide the others.
-bench-run: rt $(BENCH_PROGRAMS)
+bench-run: $(BUILD)/rt $(BENCH_PROGRAMS)
 	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_scaling bench_process; do \
-	    $(BUILD)/bench/$$p --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
+	    $(BUILD)/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
 	done; \
 	$(BUILD)/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
 	cat $(BUILD)/bench.md; \
