@@ -17,6 +17,7 @@ PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjans
             zlib1g-dev libcmocka-dev pkg-config
 PACKAGES_LINT := clang-format clang-tidy cppcheck
 PACKAGES_CLANG := clang
+PACKAGES_BENCH := libembree-dev tachyon povray
 LIBRARIES := OpenCL jansson zlib
 # In the order in which program.c and check-kernels put them together.
 KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl tile.cl intersect.cl \
@@ -102,13 +103,53 @@ check-asan: $(BUILD)/rt $(TESTS)
 	@RT=$(BUILD)/rt tests/run $(TESTS)
 
 lint: deps deps-lint
-	clang-format --dry-run -Werror src/*.[ch] tests/*.[ch] kernels/*
+	clang-format --dry-run -Werror src/*.[ch] tests/*.[ch] tests/bench/*.[ch] kernels/*
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
-	    --suppress=missingIncludeSystem --error-exitcode=1 src
+	    --suppress=missingIncludeSystem --error-exitcode=1 src tests/bench
 	clang-tidy --quiet $(SOURCES) -- -std=c11 $(PKG_CFLAGS) 2>/dev/null
 
 check-kernels: deps-clang
 	@tests/check_kernels $(KERNELS)
+
+# Side-by-side measurements; make bench BENCH="--level 2 --size 64 --spheres 100" tries them out.
+BENCH ?=
+BENCH_JSON := $(BUILD)/bench.json
+BENCH_NAMES := bench_embree bench_scaling bench_process bench_report nothing
+BENCH_PROGRAMS := $(addprefix $(BUILD)/bench/,$(BENCH_NAMES))
+BENCH_HELPERS := $(patsubst tests/bench/%.c,$(BUILD)/bench/%.o,$(filter-out \
+                 $(BENCH_NAMES:%=tests/bench/%.c),$(wildcard tests/bench/*.c)))
+
+.PHONY: bench bench-run bench-deps
+bench: deps bench-deps
+	@$(MAKE) --no-print-directory bench-run
+
+# A measurement that fails does not hide the others.
+bench-run: $(BUILD)/rt $(BENCH_PROGRAMS)
+	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_scaling bench_process; do \
+	    $(BUILD)/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
+	done; \
+	$(BUILD)/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
+	cat $(BUILD)/bench.md; \
+	test -z "$$failed" || { echo "failed:$$failed" >&2; exit 1; }
+
+$(BUILD)/bench:
+	@mkdir -p $@
+
+$(BUILD)/bench/%.o: tests/bench/%.c | $(BUILD)/bench
+	$(call say,CC)
+	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) $(BENCH_CFLAGS) -Isrc -c -o $@ $<
+
+# The loops around Embree get what its own tutorials are compiled with.
+$(BUILD)/bench/embree.o: BENCH_CFLAGS := -O3 -march=native
+
+$(filter-out %/nothing,$(BENCH_PROGRAMS)): %: %.o $(BENCH_HELPERS) $(LIBRARY)
+	$(call say,LINK)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(PKG_LIBS) -lembree3 -lm
+
+# Starts and does nothing: it must not load more than it needs.
+$(BUILD)/bench/nothing: $(BUILD)/bench/nothing.o $(LIBRARY)
+	$(call say,LINK)
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
 
 # Installs the packages that are named and not there; silent when all are.
 define install_missing
@@ -134,6 +175,9 @@ deps-lint:
 deps-clang:
 	$(call install_missing,$(PACKAGES_CLANG))
 
+bench-deps:
+	$(call install_missing,$(PACKAGES_BENCH))
+
 install: rt
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 755 rt $(DESTDIR)$(PREFIX)/bin/rt
@@ -145,4 +189,4 @@ uninstall:
 clean:
 	rm -rf build rt icecream.png
 
--include $(wildcard $(BUILD)/*.d)
+-include $(wildcard $(BUILD)/*.d $(BUILD)/bench/*.d)

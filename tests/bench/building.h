@@ -1,0 +1,11 @@
+/* Building the tree, rt against Embree. */
+#ifndef BENCH_BUILDING_H
+#define BENCH_BUILDING_H
+
+#include "bench.h"
+#include "meshes.h"
+
+/* Adds the row for one input. */
+bool bench_measure_building(bench *b, const bench_input *input);
+
+#endif

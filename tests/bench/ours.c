@@ -1,0 +1,68 @@
+#include "ours.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+bool bench_ours_make(bench_ours *ours, const rt_device *device, const rt_scene *scene, size_t rays,
+                     rt_status *status)
+{
+    const rt_render_options options = {0};
+    *ours = (bench_ours){.capacity = rays};
+    ours->hits = malloc(rays * sizeof *ours->hits);
+    if (!ours->hits)
+        return rt_status_no_memory(status, "hits");
+    ours->renderer = rt_renderer_new(device, scene, &options, status);
+    return ours->renderer != NULL;
+}
+
+void bench_ours_clear(bench_ours *ours)
+{
+    rt_renderer_free(ours->renderer);
+    free(ours->hits);
+    *ours = (bench_ours){.renderer = NULL};
+}
+
+static bool trace_nearest(bench_ours *ours, const bench_rays *rays, uint8_t *is_hit,
+                          rt_status *status)
+{
+    if (!rt_renderer_trace(ours->renderer, rays->rays, rays->count, ours->hits, status))
+        return false;
+    for (size_t i = 0; i < rays->count; ++i)
+        is_hit[i] = ours->hits[i].primitive != RT_MISS;
+    return true;
+}
+
+/* The one place that knows how the renderer answers whether anything is in the way: by the nearest
+ * hit, as long as it has no any-hit call. */
+static bool trace_any(bench_ours *ours, const bench_rays *rays, uint8_t *is_hit, rt_status *status)
+{
+    return trace_nearest(ours, rays, is_hit, status);
+}
+
+/* The stages that trace rays. */
+static double kernel_seconds(const bench_ours *ours)
+{
+    return rt_renderer_times(ours->renderer)->stages[RT_STAGE_TRACE];
+}
+
+bool bench_ours_trace(bench_ours *ours, const bench_rays *rays, bool any_hit, uint8_t *is_hit,
+                      double *seconds, rt_status *status)
+{
+    if (rays->count > ours->capacity)
+        return rt_status_fail(status, RT_ERROR_USAGE, "bench: too many rays for the hit array");
+    const double before = kernel_seconds(ours);
+    if (!(any_hit ? trace_any : trace_nearest)(ours, rays, is_hit, status))
+        return false;
+    *seconds = kernel_seconds(ours) - before;
+    return true;
+}
+
+bool bench_ours_build(const rt_scene *scene, double *seconds, rt_status *status)
+{
+    /* The renderer has no tree. Where it has one: build it over the scene here, take the seconds,
+     * release it. */
+    (void)scene;
+    (void)status;
+    *seconds = NAN;
+    return true;
+}
