@@ -9,6 +9,28 @@
 #error "RT_LANES must be 1, 4, 8 or 16"
 #endif
 
+/* Rays that one work-item of the trace stage walks the tree with: whole vectors of lanes. */
+#ifndef RT_PACKET
+#define RT_PACKET RT_LANES
+#endif
+#if RT_PACKET < RT_LANES || RT_PACKET > 64 || RT_PACKET % RT_LANES != 0 || 64 % RT_PACKET != 0
+#error "RT_PACKET must be a multiple of RT_LANES that divides 64"
+#endif
+
+/* Whether there is a tree, and the entries that a walk's stack needs at most. */
+#ifndef RT_TREE
+#define RT_TREE 1
+#endif
+#if RT_TREE != 0 && RT_TREE != 1
+#error "RT_TREE must be 0 or 1"
+#endif
+#ifndef RT_STACK
+#define RT_STACK 256
+#endif
+#if RT_STACK < 16 || RT_STACK > 4096
+#error "RT_STACK must be from 16 to 4096"
+#endif
+
 /* Whether the scene has spheres, and whether it has triangles. */
 #ifndef RT_SPHERES
 #define RT_SPHERES 1

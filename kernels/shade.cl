@@ -70,7 +70,8 @@ void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_shade(const int stride, __global const float *rays, __global const int *hit_index,
-         __global const float *hit_array, __global const rt_sphere *spheres, const int sphere_count,
+         __global const int *hit_slot, __global const float *hit_array,
+         __global const rt_sphere *spheres, const int sphere_count,
          __global const rt_triangle *triangles, __global const int *material_of,
          __global const int *normals_of, __global const float *normals,
          __global const rt_material *materials, __global const rt_light *lights,
@@ -79,6 +80,7 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
     const int index = hit_index[i];
+    const int slot = hit_slot[i];
     vec3 color = {surround.background_r, surround.background_g, surround.background_b};
 
     if (index != RT_MISS) {
@@ -90,7 +92,7 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
         vec3 normal;
 #if RT_SPHERES
         if (index < sphere_count) {
-            const rt_sphere sphere = spheres[index];
+            const rt_sphere sphere = spheres[slot];
             const vec3 center = {sphere.cx, sphere.cy, sphere.cz};
             normal = SUB(vec3, point, center);
             make_unit(&normal);
@@ -102,11 +104,10 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
 #endif
 #if RT_TRIANGLES
         {
-            const int triangle = index - sphere_count;
-            geometric_normal(triangles[triangle], &normal);
+            geometric_normal(triangles[slot], &normal);
             normal = SCALE(normal, side_toward(normal, direction));
 #if RT_SMOOTH
-            const int record = normals_of[triangle];
+            const int record = normals_of[index - sphere_count];
             if (record >= 0)
                 smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS,
                               hit_array[RT_HIT_U * step + i], hit_array[RT_HIT_V * step + i],

@@ -1,37 +1,62 @@
-/* Stage 2: from a ray array to a hit array, RT_LANES rays a work-item. Rendering, tests and
+/* Stage 2: from a ray array to a hit array, RT_PACKET rays a work-item. Rendering, tests and
  * benchmarks all launch this kernel: what is tested is what renders. */
 
-__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_LANES, 1, 1))) void
-rt_trace(const int stride, __global const float *ray_array, __global const rt_sphere *spheres,
-         const int sphere_count, __global const rt_triangle *triangles, const int triangle_count,
-         __global int *hit_index, __global float *hit_array)
+/* 1 / d, finite: the largest float where d is zero or denormal. */
+real finite_reciprocal(real d)
+{
+    const real inverse = DIVIDE((real)1.0f, d);
+    return LESSER(GREATER(inverse, (real)-FLT_MAX), (real)FLT_MAX);
+}
+
+/* Rays from the array; t is their tmax, or -infinity for rays that cannot hit anything because
+ * something in them is not finite. */
+void load_rays(__global const float *source, size_t step, rays *r, hits *h)
+{
+    r->origin.x = LOAD_REAL(source + RT_RAY_OX * step);
+    r->origin.y = LOAD_REAL(source + RT_RAY_OY * step);
+    r->origin.z = LOAD_REAL(source + RT_RAY_OZ * step);
+    r->direction.x = LOAD_REAL(source + RT_RAY_DX * step);
+    r->direction.y = LOAD_REAL(source + RT_RAY_DY * step);
+    r->direction.z = LOAD_REAL(source + RT_RAY_DZ * step);
+    r->tmin = LOAD_REAL(source + RT_RAY_TMIN * step);
+    r->inverse.x = finite_reciprocal(r->direction.x);
+    r->inverse.y = finite_reciprocal(r->direction.y);
+    r->inverse.z = finite_reciprocal(r->direction.z);
+    r->dd = DOT(r->direction, r->direction);
+    r->inv_dd = DIVIDE((real)1.0f, r->dd);
+    /* Zero times anything finite is zero, anything else is NaN. */
+    const real zero = (real)0.0f;
+    const real nought = r->origin.x * zero + r->origin.y * zero + r->origin.z * zero +
+                        r->direction.x * zero + r->direction.y * zero + r->direction.z * zero;
+    const real tmax = LOAD_REAL(source + RT_RAY_TMAX * step);
+    h->t = SELECT((real)-INFINITY, tmax, MASK(nought == (real)0.0f) & MASK(tmax > r->tmin));
+    h->index = (mask)RT_MISS;
+    h->slot = (mask)RT_MISS;
+    h->u = (real)0.0f;
+    h->v = (real)0.0f;
+}
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
+rt_trace(const int stride, __global const float *ray_array, __global const rt_node *nodes,
+         __global const int *order, __global const rt_sphere *spheres, const int sphere_count,
+         __global const rt_triangle *triangles, const int triangle_count, __global int *hit_index,
+         __global int *hit_slot, __global float *hit_array)
 {
     const size_t step = (size_t)stride;
-    const size_t first = get_global_id(0) * RT_LANES;
-    __global const float *source = ray_array + first;
-    rays r;
-    r.origin.x = LOAD_REAL(source + RT_RAY_OX * step);
-    r.origin.y = LOAD_REAL(source + RT_RAY_OY * step);
-    r.origin.z = LOAD_REAL(source + RT_RAY_OZ * step);
-    r.direction.x = LOAD_REAL(source + RT_RAY_DX * step);
-    r.direction.y = LOAD_REAL(source + RT_RAY_DY * step);
-    r.direction.z = LOAD_REAL(source + RT_RAY_DZ * step);
-    r.tmin = LOAD_REAL(source + RT_RAY_TMIN * step);
-    r.dd = DOT(r.direction, r.direction);
-    r.inv_dd = DIVIDE((real)1.0f, r.dd);
-
-    const real tmax = LOAD_REAL(source + RT_RAY_TMAX * step);
-    hits h;
-    h.index = (mask)RT_MISS;
-    h.t = tmax;
-    h.u = (real)0.0f;
-    h.v = (real)0.0f;
-    closest_hit(&r, &h, spheres, sphere_count, triangles, triangle_count);
-
-    /* A miss has an infinite t, whatever tmax was. */
-    const real t = SELECT(h.t, (real)INFINITY, MASK(h.index == (mask)RT_MISS));
-    STORE_MASK(h.index, hit_index + first);
-    STORE_REAL(t, hit_array + first + RT_HIT_T * step);
-    STORE_REAL(h.u, hit_array + first + RT_HIT_U * step);
-    STORE_REAL(h.v, hit_array + first + RT_HIT_V * step);
+    const size_t first = get_global_id(0) * RT_PACKET;
+    packet p;
+    for (int g = 0; g < RT_GROUPS; ++g)
+        load_rays(ray_array + first + g * RT_LANES, step, &p.r[g], &p.h[g]);
+    closest_hits(&p, nodes, order, spheres, sphere_count, triangles, triangle_count);
+    for (int g = 0; g < RT_GROUPS; ++g) {
+        const hits *h = &p.h[g];
+        const size_t at = first + g * RT_LANES;
+        /* A miss has an infinite t, whatever tmax was. */
+        const real t = SELECT(h->t, (real)INFINITY, MASK(h->index == (mask)RT_MISS));
+        STORE_MASK(h->index, hit_index + at);
+        STORE_MASK(h->slot, hit_slot + at);
+        STORE_REAL(t, hit_array + at + RT_HIT_T * step);
+        STORE_REAL(h->u, hit_array + at + RT_HIT_U * step);
+        STORE_REAL(h->v, hit_array + at + RT_HIT_V * step);
+    }
 }

@@ -40,6 +40,30 @@ typedef struct rt_triangle {
     float ax, ay, az, bx, by, bz, cx, cy, cz;
 } rt_triangle;
 
+/* A node of the tree: the boxes of up to 16 children side by side, empty ones with lo > hi. A child
+ * is the index of a node, or a leaf: RT_LEAF, RT_LEAF_SPHERES for spheres, the count less one, and
+ * the first slot. Slots number the primitives of a kind in the order of the leaves. */
+#define RT_WIDTH 16
+#define RT_LEAF ((int)0x80000000)
+#define RT_LEAF_SPHERES 0x40000000
+#define RT_LEAF_COUNT_SHIFT 27
+#define RT_LEAF_COUNT_MAX 8
+#define RT_LEAF_SLOTS (1 << RT_LEAF_COUNT_SHIFT)
+
+typedef struct rt_node {
+    float lo_x[RT_WIDTH], hi_x[RT_WIDTH];
+    float lo_y[RT_WIDTH], hi_y[RT_WIDTH];
+    float lo_z[RT_WIDTH], hi_z[RT_WIDTH];
+    int child[RT_WIDTH];
+} rt_node;
+
+/* A primitive's box is widened by this part of |lo| + |hi|: so the rounding of a sphere's corners
+ * cannot cut it, and a ray that runs along a face of the exact box is inside. */
+#define RT_BOX_MARGIN 0x1p-22f
+/* The far end of a slab interval grows by a few ulp, so that rounding cannot empty the interval of
+ * a box that is met at a corner (Ize 2013). */
+#define RT_SLAB_MARGIN 1.0000005f
+
 /* Phong's coefficients; `exponent` is the shininess where it is whole, else -1. */
 typedef struct rt_material {
     float ka_r, ka_g, ka_b;

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "bvh.h"
 #include "clock.h"
 #include "device.h"
 #include "effects.h"
@@ -13,6 +14,7 @@
 #include "grammar.h"
 #include "image.h"
 #include "options.h"
+#include "parallel.h"
 #include "render.h"
 #include "scalar.h"
 #include "scene.h"
@@ -44,6 +46,7 @@ typedef struct run {
     rt_scene scene;
     rt_device_list devices;
     const rt_device *device; /* NULL on the scalar path */
+    rt_bvh bvh;
     rt_renderer *renderer;
     rt_image image;
     rt_output picture, hits, stats_file;
@@ -104,11 +107,25 @@ static bool choose_device(run *r)
     return true;
 }
 
+/* Leaves r->bvh empty where every primitive is to be tried. */
+static bool build_tree(run *r)
+{
+    if (r->options.accel == RT_ACCEL_NONE)
+        return true;
+    const double start = rt_clock_seconds();
+    const bool good = rt_bvh_build(&r->bvh, &r->scene, rt_parallel_processors(), &r->status);
+    r->stats.accel = rt_clock_seconds() - start;
+    return good;
+}
+
 static bool draw_on_device(run *r)
 {
     const rt_render_options options = {
         .lanes = r->options.lanes, .tile = r->options.tile, .with_hits = r->image.hits != NULL};
-    r->renderer = rt_renderer_new(r->device, &r->scene, &options, &r->status);
+    if (!build_tree(r))
+        return false;
+    r->renderer =
+        rt_renderer_new(r->device, &r->scene, r->bvh.nodes ? &r->bvh : NULL, &options, &r->status);
     if (!r->renderer)
         return false;
     const double start = rt_clock_seconds();
@@ -268,6 +285,7 @@ static bool act(run *r)
 static void release(run *r)
 {
     rt_renderer_free(r->renderer);
+    rt_bvh_clear(&r->bvh);
     rt_output_discard(&r->picture);
     rt_output_discard(&r->hits);
     rt_output_discard(&r->stats_file);

@@ -13,7 +13,8 @@ enum {
     OPTION_DEVICE = 'd',
     OPTION_QUIET = 'q',
     OPTION_HELP = 'h',
-    OPTION_LIST = 256,
+    OPTION_ACCEL = 256,
+    OPTION_LIST,
     OPTION_LANES,
     OPTION_TILE,
     OPTION_SIZE,
@@ -24,7 +25,8 @@ enum {
     OPTION_VERSION
 };
 
-static const struct option long_options[] = {{"device", required_argument, NULL, OPTION_DEVICE},
+static const struct option long_options[] = {{"accel", required_argument, NULL, OPTION_ACCEL},
+                                             {"device", required_argument, NULL, OPTION_DEVICE},
                                              {"grammar", no_argument, NULL, OPTION_GRAMMAR},
                                              {"help", no_argument, NULL, OPTION_HELP},
                                              {"hits", required_argument, NULL, OPTION_HITS},
@@ -46,6 +48,8 @@ void rt_options_help(FILE *out)
           "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
           "be left out with --verify, --hits or --stats.\n"
           "\n"
+          "      --accel=HOW      bvh, the default, or none: try every primitive with every ray;\n"
+          "                       the picture is the same\n"
           "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
           "                       accelerator, any part of a name, scalar (plain C in float) or\n"
           "                       scalar-double; by default RT_DEVICE, else the first GPU, else\n"
@@ -119,6 +123,10 @@ static void read_device(rt_options *options, const char *text)
 static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
 {
     switch (code) {
+    case OPTION_ACCEL:
+        options->accel = strcmp(value, "none") == 0 ? RT_ACCEL_NONE : RT_ACCEL_BVH;
+        return options->accel == RT_ACCEL_NONE || strcmp(value, "bvh") == 0 ||
+               fail(status, "--accel", value, "bvh or none");
     case OPTION_DEVICE:
         read_device(options, value);
         return *value || fail(status, "--device", value, "the name or index of a device");

@@ -18,6 +18,9 @@ enum rt_action {
     RT_ACTION_GRAMMAR
 };
 
+/* How rays find primitives: by a tree, or by trying all. */
+enum rt_accel { RT_ACCEL_BVH, RT_ACCEL_NONE };
+
 enum rt_target { RT_TARGET_DEVICE, RT_TARGET_SCALAR, RT_TARGET_SCALAR_DOUBLE };
 
 /* All strings are the caller's argv or environment. */
@@ -27,6 +30,7 @@ typedef struct rt_options {
     const char *output; /* NULL where no picture is asked for; "-" for standard output */
     enum rt_image_format format;
     enum rt_target target;
+    enum rt_accel accel;
     const char *device; /* selector, or NULL for the default */
     const char *hits, *stats;
     int width, height; /* 0 where the scene decides */

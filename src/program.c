@@ -15,13 +15,24 @@ enum rt_rounding rt_program_rounding(const rt_device *device)
     return device->has_fp64 ? RT_ROUNDING_DOUBLE : RT_ROUNDING_FMA;
 }
 
-void rt_program_options(const rt_effects *effects, int lanes, enum rt_rounding rounding,
+/* Few sizes, because each is a variant to compile. */
+static int round_stack(size_t need)
+{
+    int size = 64;
+    while ((size_t)size < need)
+        size *= 4;
+    return size;
+}
+
+void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
                         char *options)
 {
     snprintf(options, RT_PROGRAM_OPTIONS_SIZE,
-             "-cl-std=CL1.2%s -DRT_LANES=%d -DRT_SPHERES=%d -DRT_TRIANGLES=%d -DRT_CULL=%d "
+             "-cl-std=CL1.2%s -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d -DRT_STACK=%d "
+             "-DRT_SPHERES=%d -DRT_TRIANGLES=%d -DRT_CULL=%d "
              "-DRT_SMOOTH=%d -DRT_SHININESS_BITS=%d -DRT_SHININESS_FRACTION=%d -DRT_ROUNDING=%d",
-             rounding == RT_ROUNDING_DEVICE ? " -cl-fp32-correctly-rounded-divide-sqrt" : "", lanes,
+             rounding == RT_ROUNDING_DEVICE ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
+             walk->lanes, walk->packet, walk->stack_size > 0, round_stack(walk->stack_size),
              effects->has_spheres, effects->has_triangles, effects->cull_sign,
              effects->on[RT_EFFECT_SMOOTH_NORMALS], effects->exponent_bits,
              effects->has_fractional_exponent, (int)rounding);

@@ -18,8 +18,14 @@ enum rt_rounding { RT_ROUNDING_DEVICE = 0, RT_ROUNDING_DOUBLE = 1, RT_ROUNDING_F
 /* The way for a device: its own where it offers it, double where it has fp64, else fma. */
 enum rt_rounding rt_program_rounding(const rt_device *device);
 
+/* How the trace stage walks (kernels/options.h). */
+typedef struct rt_walk {
+    int lanes, packet;
+    size_t stack_size; /* entries that the tree needs at most; 0 for no tree */
+} rt_walk;
+
 /* Writes the compiler options of a variant to options[0..RT_PROGRAM_OPTIONS_SIZE). */
-void rt_program_options(const rt_effects *effects, int lanes, enum rt_rounding rounding,
+void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
                         char *options);
 
 /* Builds the kernels. Their text is the one embedded in the executable, or that of the files in the

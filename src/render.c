@@ -22,12 +22,13 @@ typedef struct flight {
 
 /* Scene arrays on the device. */
 typedef struct scene_buffers {
-    cl_mem spheres, triangles, materials_of, normals_of, normals, materials, lights;
+    cl_mem nodes, order, spheres, triangles; /* in slot order */
+    cl_mem materials_of, normals_of, normals, materials, lights;
 } scene_buffers;
 
 /* Arrays between the stages, for one tile. */
 typedef struct tile_buffers {
-    cl_mem rays, hit_index, hit_array, colors, picture, records;
+    cl_mem rays, hit_index, hit_slot, hit_array, colors, picture, records;
 } tile_buffers;
 
 struct rt_renderer {
@@ -38,7 +39,7 @@ struct rt_renderer {
     scene_buffers scene;
     tile_buffers tile;
     cl_int stride; /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
-    int tile_side, lanes;
+    int tile_side, lanes, packet;
     int width, height;
     bool with_hits;
     float *staging; /* owned: stride values, for rt_renderer_trace */
@@ -116,17 +117,37 @@ static bool upload_material_indices(rt_renderer *r, const rt_scene *scene, rt_st
                   status));
 }
 
-static bool upload_scene(rt_renderer *r, const rt_scene *scene, rt_status *status)
+/* The arrays that the trace stage works on. Without a tree slots are primitive indices. */
+static bool upload_geometry(rt_renderer *r, const rt_scene *scene, const rt_bvh *bvh,
+                            rt_status *status)
+{
+    scene_buffers *b = &r->scene;
+    const size_t count = scene->sphere_count + scene->triangle_count;
+    int32_t *identity = NULL;
+    if (!bvh && !(identity = malloc((count + 1) * sizeof *identity)))
+        return rt_status_no_memory(status, "the scene");
+    for (size_t i = 0; !bvh && i < count; ++i)
+        identity[i] = (int32_t)i;
+    const bool good =
+        upload(r, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
+               &b->nodes, status) &&
+        upload(r, bvh ? bvh->order : identity, count * sizeof *identity, &b->order, status) &&
+        upload(r, bvh ? bvh->spheres : scene->spheres, scene->sphere_count * sizeof *scene->spheres,
+               &b->spheres, status) &&
+        upload(r, bvh ? bvh->triangles : scene->triangles,
+               scene->triangle_count * sizeof *scene->triangles, &b->triangles, status);
+    free(identity);
+    return good;
+}
+
+static bool upload_scene(rt_renderer *r, const rt_scene *scene, const rt_bvh *bvh,
+                         rt_status *status)
 {
     scene_buffers *b = &r->scene;
     /* Without vertex normals the kernels do not read the records' indices. */
     const size_t records = scene->normal_count ? scene->triangle_count : 0;
     const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
-    return upload(r, scene->spheres, scene->sphere_count * sizeof *scene->spheres, &b->spheres,
-                  status) &&
-           upload(r, scene->triangles, scene->triangle_count * sizeof *scene->triangles,
-                  &b->triangles, status) &&
-           upload_material_indices(r, scene, status) &&
+    return upload_geometry(r, scene, bvh, status) && upload_material_indices(r, scene, status) &&
            upload(r, scene->triangle_normals, records * sizeof *scene->triangle_normals,
                   &b->normals_of, status) &&
            upload(r, scene->normals, normals * sizeof *scene->normals, &b->normals, status) &&
@@ -142,6 +163,7 @@ static bool make_tile_buffers(rt_renderer *r, rt_status *status)
     return make_buffer(r, CL_MEM_READ_WRITE, rays * RT_RAY_COMPONENTS * sizeof(float), &b->rays,
                        status) &&
            make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_index, status) &&
+           make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_slot, status) &&
            make_buffer(r, CL_MEM_READ_WRITE, rays * RT_HIT_COMPONENTS * sizeof(float),
                        &b->hit_array, status) &&
            make_buffer(r, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float), &b->colors,
@@ -195,14 +217,15 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
     return SET_ARGUMENTS(r->kernels[RT_STAGE_CAMERA], status, ARGUMENT(frame), ARGUMENT(tile),
                          ARGUMENT(stride), ARGUMENT(t->rays)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_TRACE], status, ARGUMENT(stride), ARGUMENT(t->rays),
-                         ARGUMENT(s->spheres), ARGUMENT(spheres), ARGUMENT(s->triangles),
-                         ARGUMENT(triangles), ARGUMENT(t->hit_index), ARGUMENT(t->hit_array)) &&
+                         ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
+                         ARGUMENT(spheres), ARGUMENT(s->triangles), ARGUMENT(triangles),
+                         ARGUMENT(t->hit_index), ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_SHADE], status, ARGUMENT(stride), ARGUMENT(t->rays),
-                         ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(s->spheres),
-                         ARGUMENT(spheres), ARGUMENT(s->triangles), ARGUMENT(s->materials_of),
-                         ARGUMENT(s->normals_of), ARGUMENT(s->normals), ARGUMENT(s->materials),
-                         ARGUMENT(s->lights), ARGUMENT(lights), ARGUMENT(surround),
-                         ARGUMENT(t->colors)) &&
+                         ARGUMENT(t->hit_index), ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array),
+                         ARGUMENT(s->spheres), ARGUMENT(spheres), ARGUMENT(s->triangles),
+                         ARGUMENT(s->materials_of), ARGUMENT(s->normals_of), ARGUMENT(s->normals),
+                         ARGUMENT(s->materials), ARGUMENT(s->lights), ARGUMENT(lights),
+                         ARGUMENT(surround), ARGUMENT(t->colors)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_RESOLVE], status, ARGUMENT(tile), ARGUMENT(stride),
                          ARGUMENT(t->colors), ARGUMENT(t->picture)) &&
            (!r->with_hits ||
@@ -210,7 +233,8 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
                           ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(t->records)));
 }
 
-static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, rt_status *status)
+static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
+                  rt_status *status)
 {
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                                 (cl_context_properties)device->platform, 0};
@@ -224,13 +248,14 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
         return false;
     const rt_effects effects = rt_effects_of(scene);
     char options[RT_PROGRAM_OPTIONS_SIZE];
-    rt_program_options(&effects, r->lanes, rt_program_rounding(device), options);
+    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0};
+    rt_program_options(&effects, &walk, rt_program_rounding(device), options);
     r->program = rt_program_build(r->context, device, options, status);
     if (!r->program)
         return false;
     r->times.program = rt_clock_seconds() - start;
     start = rt_clock_seconds();
-    if (!upload_scene(r, scene, status) || !make_tile_buffers(r, status))
+    if (!upload_scene(r, scene, bvh, status) || !make_tile_buffers(r, status))
         return false;
     r->times.upload = rt_clock_seconds() - start;
     return make_kernels(r, scene, status);
@@ -241,7 +266,7 @@ static int round_up(int value, int multiple)
     return (value + multiple - 1) / multiple * multiple;
 }
 
-rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
+rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
                              const rt_render_options *options, rt_status *status)
 {
     rt_renderer *r = calloc(1, sizeof *r);
@@ -250,6 +275,7 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
         return NULL;
     }
     r->lanes = options->lanes ? options->lanes : rt_device_lanes(device);
+    r->packet = options->packet ? options->packet : r->lanes == 1 ? 1 : RT_BLOCK_RAYS;
     r->tile_side = options->tile ? options->tile : RT_TILE_DEFAULT;
     r->width = scene->width;
     r->height = scene->height;
@@ -257,8 +283,8 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
     const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
     r->stride = side * side;
     r->staging = malloc((size_t)r->stride * sizeof *r->staging);
-    const bool good =
-        r->staging ? build(r, device, scene, status) : rt_status_no_memory(status, "the renderer");
+    const bool good = r->staging ? build(r, device, scene, bvh, status)
+                                 : rt_status_no_memory(status, "the renderer");
     if (good)
         return r;
     rt_renderer_free(r);
@@ -307,7 +333,7 @@ void rt_renderer_free(rt_renderer *r)
 static bool launch(rt_renderer *r, enum rt_stage stage, size_t rays, cl_event *event,
                    rt_status *status)
 {
-    const size_t rays_per_item = stage == RT_STAGE_TRACE ? (size_t)r->lanes : 1;
+    const size_t rays_per_item = stage == RT_STAGE_TRACE ? (size_t)r->packet : 1;
     const size_t global = rays / rays_per_item;
     const size_t local = RT_BLOCK_RAYS / rays_per_item;
     r->times.launches[stage]++;

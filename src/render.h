@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "bvh.h"
 #include "device.h"
 #include "effects.h"
 #include "image.h"
@@ -16,7 +17,8 @@
 #define RT_TILE_MAX 4096
 
 typedef struct rt_render_options {
-    int lanes;      /* rays a work-item: 1, 4, 8, 16, or 0 for what suits the device */
+    int lanes;      /* rays a vector: 1, 4, 8, 16, or 0 for what suits the device */
+    int packet;     /* rays a work-item: a multiple of lanes up to 64, or 0 for the default */
     int tile;       /* side of a tile in pixels, 1 to RT_TILE_MAX, or 0 for the default */
     bool with_hits; /* whether rt_renderer_draw may be asked for hit records */
 } rt_render_options;
@@ -41,9 +43,10 @@ typedef struct rt_render_times {
 
 typedef struct rt_renderer rt_renderer;
 
-/* Builds the kernels for the scene and uploads its arrays. The scene may be cleared afterwards.
- * Returns NULL after an error, with code RT_ERROR_DEVICE. */
-rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene,
+/* Builds the kernels for the scene and uploads its arrays. The tree is the scene's own, or NULL to
+ * hold every ray against every primitive, which gives the same bits. Scene and tree may be cleared
+ * afterwards. Returns NULL after an error, with code RT_ERROR_DEVICE. */
+rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
                              const rt_render_options *options, rt_status *status);
 void rt_renderer_free(rt_renderer *renderer);
 

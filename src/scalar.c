@@ -2,6 +2,7 @@
  * written fma and contraction is off, so the float version's bits are the same everywhere. */
 #include "scalar.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -13,6 +14,8 @@ typedef double real;
 #define POW pow
 #define FABS fabs
 #define FMAX fmax
+#define FMIN fmin
+#define REAL_MAX DBL_MAX
 #define LDEXP ldexp
 #define ILOGB ilogb
 #else
@@ -23,6 +26,8 @@ typedef float real;
 #define POW powf
 #define FABS fabsf
 #define FMAX fmaxf
+#define FMIN fminf
+#define REAL_MAX FLT_MAX
 #define LDEXP ldexpf
 #define ILOGB ilogbf
 #endif
@@ -122,6 +127,44 @@ static bool sphere_roots(const ray *r, vec center, real radius, real *near, real
     return true;
 }
 
+/* Where the ray is within an axis's slab, and no longer; a direction of 0 counts as the smallest.
+ */
+static void slab(real origin, real direction, real lo, real hi, real *enter, real *leave)
+{
+    const real margin = (FABS(lo) + FABS(hi)) * (real)RT_BOX_MARGIN;
+    real inverse = (real)1 / direction;
+    if (inverse > REAL_MAX)
+        inverse = REAL_MAX;
+    if (inverse < -REAL_MAX)
+        inverse = -REAL_MAX;
+    const real t0 = ((lo - margin) - origin) * inverse, t1 = ((hi + margin) - origin) * inverse;
+    const real near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
+    *enter = near > *enter ? near : *enter;
+    *leave = far < *leave ? far : *leave;
+}
+
+/* Takes a hit if it is nearer than the best, or as near and of a lower index. Rounding can put t
+ * outside of the primitive, far outside for slivers and grazing rays: it is kept within the ray's
+ * part in the primitive's box, and a ray that does not meet the box does not meet the primitive. */
+static void take(const ray *r, hit candidate, vec lo, vec hi, hit *best)
+{
+    real enter = -INFINITY, leave = INFINITY;
+    slab(r->origin.x, r->direction.x, lo.x, hi.x, &enter, &leave);
+    slab(r->origin.y, r->direction.y, lo.y, hi.y, &enter, &leave);
+    slab(r->origin.z, r->direction.z, lo.z, hi.z, &enter, &leave);
+    leave = leave * (real)RT_SLAB_MARGIN;
+    if (!(enter <= leave))
+        return;
+    if (!(candidate.t > enter))
+        candidate.t = enter;
+    if (!(candidate.t < leave))
+        candidate.t = leave;
+    const bool nearer =
+        candidate.t < best->t || (candidate.t == best->t && candidate.primitive < best->primitive);
+    if (candidate.t > r->tmin && nearer)
+        *best = candidate;
+}
+
 static void intersect_sphere(const ray *r, const rt_sphere *sphere, int primitive, hit *best)
 {
     real near, far;
@@ -129,8 +172,9 @@ static void intersect_sphere(const ray *r, const rt_sphere *sphere, int primitiv
     if (!sphere_roots(r, center, (real)sphere->radius, &near, &far))
         return;
     const real t = near > r->tmin ? near : far;
-    if (t > r->tmin && t < best->t)
-        *best = (hit){primitive, t, 0, 0};
+    const vec reach = {(real)sphere->radius, (real)sphere->radius, (real)sphere->radius};
+    const vec lo = minus(center, reach), hi = minus(center, times(reach, -1));
+    take(r, (hit){primitive, t, 0, 0}, lo, hi, best);
 }
 
 /* Moller and Trumbore 1997; `cull` as rt_scene_cull_sign. */
@@ -157,14 +201,26 @@ static void intersect_triangle(const ray *r, const rt_triangle *triangle, int pr
     }
     if (!(det > 0 && u >= 0 && v >= 0 && u + v <= det))
         return;
-    t = t / det;
-    if (t > r->tmin && t < best->t)
-        *best = (hit){primitive, t, u / det, v / det};
+    const vec b = vec_of(triangle->bx, triangle->by, triangle->bz);
+    const vec c = vec_of(triangle->cx, triangle->cy, triangle->cz);
+    const vec lo = {FMIN(a.x, FMIN(b.x, c.x)), FMIN(a.y, FMIN(b.y, c.y)),
+                    FMIN(a.z, FMIN(b.z, c.z))};
+    const vec hi = {FMAX(a.x, FMAX(b.x, c.x)), FMAX(a.y, FMAX(b.y, c.y)),
+                    FMAX(a.z, FMAX(b.z, c.z))};
+    take(r, (hit){primitive, t / det, u / det, v / det}, lo, hi, best);
+}
+
+/* A ray with a component that is not finite hits nothing. */
+static bool is_lawful(const ray *r)
+{
+    const vec o = r->origin, d = r->direction;
+    return isfinite(o.x) && isfinite(o.y) && isfinite(o.z) && isfinite(d.x) && isfinite(d.y) &&
+           isfinite(d.z) && r->tmax > r->tmin;
 }
 
 static hit closest_hit(const rt_scene *scene, const ray *r)
 {
-    hit best = {RT_MISS, r->tmax, 0, 0};
+    hit best = {RT_MISS, is_lawful(r) ? r->tmax : -INFINITY, 0, 0};
     const int spheres = (int)scene->sphere_count;
     const int cull = rt_scene_cull_sign(scene);
     for (int i = 0; i < spheres; ++i)

@@ -84,14 +84,32 @@ void test_scene(rt_scene *scene, const char *text)
     test_scene_file(scene, path);
 }
 
+static bool use_tree = true;
+
+void test_use_tree(bool use)
+{
+    use_tree = use;
+}
+
+rt_renderer *test_renderer(const rt_scene *scene, const rt_render_options *options)
+{
+    rt_status status = RT_STATUS_INIT;
+    rt_bvh bvh = {0};
+    assert_good(!use_tree || rt_bvh_build(&bvh, scene, 2, &status), &status);
+    rt_renderer *renderer =
+        rt_renderer_new(test_device(), scene, use_tree ? &bvh : NULL, options, &status);
+    assert_good(renderer != NULL, &status);
+    rt_bvh_clear(&bvh);
+    return renderer;
+}
+
 void test_draw(const rt_scene *scene, const rt_render_options *options, rt_image *image)
 {
     rt_status status = RT_STATUS_INIT;
     rt_render_options with_hits = options ? *options : (rt_render_options){0};
     with_hits.with_hits = true;
     assert_good(rt_image_init(image, scene->width, scene->height, true, &status), &status);
-    rt_renderer *renderer = rt_renderer_new(test_device(), scene, &with_hits, &status);
-    assert_good(renderer != NULL, &status);
+    rt_renderer *renderer = test_renderer(scene, &with_hits);
     assert_good(rt_renderer_draw(renderer, image, NULL, &status), &status);
     rt_renderer_free(renderer);
 }

@@ -40,6 +40,11 @@ const rt_device *test_device(void);
 void test_scene(rt_scene *scene, const char *text);
 void test_scene_file(rt_scene *scene, const char *path);
 
+/* A renderer for the scene on the device under test, by a tree unless test_use_tree(false) was said
+ * last; fails the test on an error. */
+rt_renderer *test_renderer(const rt_scene *scene, const rt_render_options *options);
+void test_use_tree(bool use);
+
 /* Renders on the device under test with hit records; fails the test on an error. */
 void test_draw(const rt_scene *scene, const rt_render_options *options, rt_image *image);
 /* The same, by the scalar float path. */

@@ -42,8 +42,7 @@ static void check_all(const char *text, const expectation *cases, size_t count)
     test_scene(&scene, text);
     for (size_t w = 0; w < 4; ++w) {
         const rt_render_options options = {.lanes = widths[w], .tile = 8};
-        rt_renderer *renderer = rt_renderer_new(test_device(), &scene, &options, &status);
-        assert_good(renderer != NULL, &status);
+        rt_renderer *renderer = test_renderer(&scene, &options);
         for (size_t i = 0; i < count; ++i) {
             rt_hit hit;
             assert_good(rt_renderer_trace(renderer, &cases[i].ray, 1, &hit, &status), &status);

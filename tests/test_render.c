@@ -182,8 +182,7 @@ static void a_watch_stops_the_picture(void **state)
     const rt_render_options options = {.tile = 16};
     test_scene_file(&scene, "scenes/sphere.txt");
     assert_good(rt_image_init(&image, scene.width, scene.height, false, &status), &status);
-    rt_renderer *renderer = rt_renderer_new(test_device(), &scene, &options, &status);
-    assert_good(renderer != NULL, &status);
+    rt_renderer *renderer = test_renderer(&scene, &options);
     assert_false(rt_renderer_draw(renderer, &image, &watch, &status));
     assert_int_equal(status.code, RT_INTERRUPTED);
     assert_int_equal(ticks, 1);
@@ -203,8 +202,7 @@ static void only_the_stages_called_for(void **state)
     const rt_render_options options = {0};
     test_scene_file(&scene, "scenes/sphere.txt");
     assert_good(rt_image_init(&image, scene.width, scene.height, false, &status), &status);
-    rt_renderer *renderer = rt_renderer_new(test_device(), &scene, &options, &status);
-    assert_good(renderer != NULL, &status);
+    rt_renderer *renderer = test_renderer(&scene, &options);
     assert_good(rt_renderer_draw(renderer, &image, NULL, &status), &status);
     const rt_render_times *times = rt_renderer_times(renderer);
     assert_int_equal(times->launches[RT_STAGE_CAMERA], 4);
