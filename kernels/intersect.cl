@@ -1,6 +1,6 @@
 /* One primitive against RT_LANES rays. The nearest hit is the least t in (tmin, tmax), and among
  * equals that of the lowest primitive index, whatever the order in which primitives are offered.
- * Every test is written so that a NaN means a miss. */
+ * Every test is written so that a NaN means a miss. Tests return whether any lane took the hit. */
 
 typedef struct rays {
     real3 origin, direction;
@@ -15,15 +15,12 @@ typedef struct hits {
     real t, u, v;
 } hits;
 
-#define LESSER(a, b) SELECT(b, a, MASK((a) < (b)))
-#define GREATER(a, b) SELECT(b, a, MASK((a) > (b)))
-
 /* The part of the rays within a box, as t from `enter` to `leave`; empty where enter > leave. The
  * operations are monotone in the box, rounding included, so that the interval of a box contains
  * that of any box inside it exactly: a walk that skips a node by this test never skips a hit that
  * has been kept in its primitive's own interval. */
-void box_interval(const rays *r, float lo_x, float hi_x, float lo_y, float hi_y, float lo_z,
-                  float hi_z, real *enter, real *leave)
+INLINE void box_interval(const rays *r, float lo_x, float hi_x, float lo_y, float hi_y, float lo_z,
+                         float hi_z, real *enter, real *leave)
 {
     const real x0 = ((real)lo_x - r->origin.x) * r->inverse.x;
     const real x1 = ((real)hi_x - r->origin.x) * r->inverse.x;
@@ -52,7 +49,8 @@ typedef struct extent {
 /* Takes `t` as the hit of a primitive in the lanes of `on`, if it is nearer than what is there.
  * Moller and Trumbore's t on a sliver or a grazing ray can lie outside of the triangle by far; it
  * is kept within the primitive's own box. Returns the lanes that took it. */
-mask accept(const rays *r, hits *h, mask on, real t, real enter, real leave, int index, int slot)
+INLINE mask accept(const rays *r, hits *h, mask on, real t, real enter, real leave, int index,
+                   int slot)
 {
     on = on & MASK(enter <= leave);
     t = LESSER(GREATER(t, enter), leave);
@@ -68,7 +66,7 @@ mask accept(const rays *r, hits *h, mask on, real t, real enter, real leave, int
 /* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
  * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
  * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). */
-void hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index, int slot)
+INLINE int hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index, int slot)
 {
     const real3 center = SPLAT3(sphere.cx, sphere.cy, sphere.cz);
     const real radius = (real)sphere.radius;
@@ -80,7 +78,7 @@ void hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index, int slot)
     const real discriminant = fma(radius, radius, -DOT(l, l));
     const mask meets = MASK(discriminant >= (real)0.0f);
     if (!ANY(meets))
-        return;
+        return 0;
     /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
      * their product c / dd. */
     const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
@@ -101,16 +99,17 @@ void hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index, int slot)
     const mask on = accept(r, h, meets, t, enter, leave, index, slot);
     h->u = SELECT(h->u, (real)0.0f, on);
     h->v = SELECT(h->v, (real)0.0f, on);
+    return ANY(on);
 }
 #endif
 
 #if RT_TRIANGLES
-#define LESSEST(a, b, c) fmin(fmin(a, b), c)
-#define GREATEST(a, b, c) fmax(fmax(a, b), c)
+#define LESSEST(a, b, c) LESSER_1(LESSER_1(a, b), c)
+#define GREATEST(a, b, c) GREATER_1(GREATER_1(a, b), c)
 
 /* Moller and Trumbore 1997. Barycentric bounds are tested before any division, against the
  * determinant itself: there is no epsilon, so the test is the same at every scale. */
-void hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index, int slot)
+INLINE int hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index, int slot)
 {
     const real3 a = SPLAT3(triangle.ax, triangle.ay, triangle.az);
     const real3 e1 =
@@ -135,7 +134,7 @@ void hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index, int s
     const real v = AS_REAL(AS_MASK(DOT(r->direction, q)) ^ sign);
     const mask inside = facing & MASK(u >= (real)0.0f) & MASK(v >= (real)0.0f) & MASK(u + v <= det);
     if (!ANY(inside))
-        return;
+        return 0;
     const real t = DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), det);
     extent x, y, z;
     WIDEN_EXTENT(LESSEST(triangle.ax, triangle.bx, triangle.cx),
@@ -149,5 +148,6 @@ void hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index, int s
     const mask on = accept(r, h, inside, t, enter, leave, index, slot);
     h->u = SELECT(h->u, DIVIDE(u, det), on);
     h->v = SELECT(h->v, DIVIDE(v, det), on);
+    return ANY(on);
 }
 #endif

@@ -32,9 +32,37 @@ typedef RT_PASTE(int, RT_LANES) mask;
 #define STORE_REAL(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
 #define STORE_MASK(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
 #define MASK(condition) (condition)
-#define ANY(m) any(m)
+#define ANY(m) RT_PASTE(lanes_or, RT_LANES)(m)
 #define SELECT(off, on, m) select(off, on, m)
 #endif
+
+/* Functions of the trace stage are parts of one loop: as calls they would spill every vector. */
+#define INLINE __attribute__((always_inline))
+
+/* Whether a lane is on. Written out because PoCL's any() tests lane after lane with a branch each.
+ */
+INLINE int lanes_or4(int4 m)
+{
+    const int2 half_ = m.lo | m.hi;
+    return half_.x | half_.y;
+}
+INLINE int lanes_or8(int8 m)
+{
+    return lanes_or4(m.lo | m.hi);
+}
+INLINE int lanes_or16(int16 m)
+{
+    return lanes_or8(m.lo | m.hi);
+}
+
+/* The extremes of vectors; unlike fmin and fmax these are one instruction, and for NaN they are
+ * whatever the comparison leaves. */
+#define LESSER(a, b) SELECT(b, a, MASK((a) < (b)))
+#define GREATER(a, b) SELECT(b, a, MASK((a) > (b)))
+#define LESSER_1(a, b) ((a) < (b) ? (a) : (b))
+#define GREATER_1(a, b) ((a) > (b) ? (a) : (b))
+#define LESSER_N(a, b) select(b, a, (a) < (b))
+#define GREATER_N(a, b) select(b, a, (a) > (b))
 
 typedef struct real3 {
     real x, y, z;

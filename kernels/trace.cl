@@ -2,7 +2,7 @@
  * benchmarks all launch this kernel: what is tested is what renders. */
 
 /* 1 / d, finite: the largest float where d is zero or denormal. */
-real finite_reciprocal(real d)
+INLINE real finite_reciprocal(real d)
 {
     const real inverse = DIVIDE((real)1.0f, d);
     return LESSER(GREATER(inverse, (real)-FLT_MAX), (real)FLT_MAX);
@@ -10,7 +10,7 @@ real finite_reciprocal(real d)
 
 /* Rays from the array; t is their tmax, or -infinity for rays that cannot hit anything because
  * something in them is not finite. */
-void load_rays(__global const float *source, size_t step, rays *r, hits *h)
+INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *h)
 {
     r->origin.x = LOAD_REAL(source + RT_RAY_OX * step);
     r->origin.y = LOAD_REAL(source + RT_RAY_OY * step);

@@ -14,35 +14,39 @@ typedef struct packet {
 } packet;
 
 #if RT_SPHERES
-void offer_spheres(packet *p, int groups, __global const rt_sphere *spheres,
-                   __global const int *order, int first, int count)
+INLINE int offer_spheres(packet *p, int groups, __global const rt_sphere *spheres,
+                         __global const int *order, int first, int count)
 {
+    int changed = 0;
     for (int i = first; i < first + count; ++i) {
         const rt_sphere sphere = spheres[i];
         for (int g = 0; g < RT_GROUPS; ++g)
             if (groups >> g & 1)
-                hit_sphere(&p->r[g], &p->h[g], sphere, order[i], i);
+                changed |= hit_sphere(&p->r[g], &p->h[g], sphere, order[i], i);
     }
+    return changed;
 }
 #endif
 
 #if RT_TRIANGLES
-void offer_triangles(packet *p, int groups, __global const rt_triangle *triangles,
-                     __global const int *order, int sphere_count, int first, int count)
+INLINE int offer_triangles(packet *p, int groups, __global const rt_triangle *triangles,
+                           __global const int *order, int sphere_count, int first, int count)
 {
+    int changed = 0;
     for (int i = first; i < first + count; ++i) {
         const rt_triangle triangle = triangles[i];
         for (int g = 0; g < RT_GROUPS; ++g)
             if (groups >> g & 1)
-                hit_triangle(&p->r[g], &p->h[g], triangle, order[sphere_count + i], i);
+                changed |= hit_triangle(&p->r[g], &p->h[g], triangle, order[sphere_count + i], i);
     }
+    return changed;
 }
 #endif
 
 #if !RT_TREE
-void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
-                  __global const rt_sphere *spheres, int sphere_count,
-                  __global const rt_triangle *triangles, int triangle_count)
+INLINE void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
+                         __global const rt_sphere *spheres, int sphere_count,
+                         __global const rt_triangle *triangles, int triangle_count)
 {
 #if RT_SPHERES
     offer_spheres(p, -1, spheres, order, 0, sphere_count);
@@ -69,43 +73,40 @@ typedef struct bundle {
 
 #if RT_LANES == 1
 #define LEAST(v) (v)
-#define GREATEST_OF(v) (v)
+#define MOST(v) (v)
 #else
-#if RT_LANES == 16
-#define HALVE(v, op) op((v).lo, (v).hi)
-#endif
-float least4(float4 v)
+INLINE float least4(float4 v)
 {
-    return fmin(fmin(v.x, v.y), fmin(v.z, v.w));
+    const float2 half_ = LESSER_N(v.lo, v.hi);
+    return LESSER_1(half_.x, half_.y);
 }
-float greatest4(float4 v)
+INLINE float most4(float4 v)
 {
-    return fmax(fmax(v.x, v.y), fmax(v.z, v.w));
+    const float2 half_ = GREATER_N(v.lo, v.hi);
+    return GREATER_1(half_.x, half_.y);
 }
-#if RT_LANES == 4
-#define LEAST(v) least4(v)
-#define GREATEST_OF(v) greatest4(v)
-#elif RT_LANES == 8
-#define LEAST(v) least4(fmin((v).lo, (v).hi))
-#define GREATEST_OF(v) greatest4(fmax((v).lo, (v).hi))
-#else
-float least16(float16 v)
+INLINE float least8(float8 v)
 {
-    const float8 half_ = fmin(v.lo, v.hi);
-    return least4(fmin(half_.lo, half_.hi));
+    return least4(LESSER_N(v.lo, v.hi));
 }
-float greatest16(float16 v)
+INLINE float most8(float8 v)
 {
-    const float8 half_ = fmax(v.lo, v.hi);
-    return greatest4(fmax(half_.lo, half_.hi));
+    return most4(GREATER_N(v.lo, v.hi));
 }
-#define LEAST(v) least16(v)
-#define GREATEST_OF(v) greatest16(v)
-#endif
+INLINE float least16(float16 v)
+{
+    return least8(LESSER_N(v.lo, v.hi));
+}
+INLINE float most16(float16 v)
+{
+    return most8(GREATER_N(v.lo, v.hi));
+}
+#define LEAST(v) RT_PASTE(least, RT_LANES)(v)
+#define MOST(v) RT_PASTE(most, RT_LANES)(v)
 #endif
 
 /* Lanes whose rays can still hit anything: a dead ray must not widen the bundle. */
-mask alive(const rays *r, const hits *h)
+INLINE mask alive(const rays *r, const hits *h)
 {
     return MASK(h->t > r->tmin);
 }
@@ -123,8 +124,8 @@ mask alive(const rays *r, const hits *h)
             low_i = SELECT(low_i, LESSER(i, low_i), on);                                           \
             high_i = SELECT(high_i, GREATER(i, high_i), on);                                       \
         }                                                                                          \
-        const float o0 = LEAST(low_o), o1 = GREATEST_OF(high_o);                                   \
-        const float i0 = LEAST(low_i), i1 = GREATEST_OF(high_i);                                   \
+        const float o0 = LEAST(low_o), o1 = MOST(high_o);                                          \
+        const float i0 = LEAST(low_i), i1 = MOST(high_i);                                          \
         (out)->mirrored = i1 < 0.0f;                                                               \
         (out)->mixed = i0 < 0.0f && i1 > 0.0f;                                                     \
         (out)->first = i1 < 0.0f ? -o1 : o0;                                                       \
@@ -133,22 +134,27 @@ mask alive(const rays *r, const hits *h)
         (out)->fastest = i1 < 0.0f ? -i0 : i1;                                                     \
     } while (0)
 
-void refresh_limits(const packet *p, bundle *b)
+/* The greatest t that is still of interest to some ray; -infinity without one. */
+INLINE float farthest(const packet *p)
 {
-    real low = (real)INFINITY, high = (real)-INFINITY;
-    for (int g = 0; g < RT_GROUPS; ++g) {
-        const mask on = alive(&p->r[g], &p->h[g]);
-        low = SELECT(low, LESSER(p->r[g].tmin, low), on);
-        high = SELECT(high, GREATER(p->h[g].t, high), on);
-    }
-    b->tmin = LEAST(low);
-    b->tmax = GREATEST_OF(high);
+    real high = (real)-INFINITY;
+    for (int g = 0; g < RT_GROUPS; ++g)
+        high = SELECT(high, GREATER(p->h[g].t, high), alive(&p->r[g], &p->h[g]));
+    return MOST(high);
+}
+
+INLINE float least_tmin(const packet *p)
+{
+    real low = (real)INFINITY;
+    for (int g = 0; g < RT_GROUPS; ++g)
+        low = SELECT(low, LESSER(p->r[g].tmin, low), alive(&p->r[g], &p->h[g]));
+    return LEAST(low);
 }
 
 /* Narrows [enter, leave] of 16 boxes by one axis. For each ray of the bundle its own interval, as
  * box_interval computes it, lies within: every operation rounds monotonely. */
-void narrow(const bundle_axis *a, __global const float *lo, __global const float *hi,
-            float16 *enter, float16 *leave)
+INLINE void narrow(const bundle_axis *a, __global const float *lo, __global const float *hi,
+                   float16 *enter, float16 *leave)
 {
     if (a->mixed)
         return;
@@ -163,19 +169,15 @@ void narrow(const bundle_axis *a, __global const float *lo, __global const float
 }
 
 /* The lanes of a 16-lane mask as bits, lane 0 lowest. */
-int bits_of(int16 m)
+INLINE int bits_of(int16 m)
 {
     const int16 weights = {1,   2,   4,    8,    16,   32,   64,    128,
                            256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
-    const int16 w = m & weights;
-    const int8 a = w.lo | w.hi;
-    const int4 b = a.lo | a.hi;
-    const int2 c = b.lo | b.hi;
-    return c.x | c.y;
+    return lanes_or16(m & weights);
 }
 
 /* Groups of which some ray meets the box of a node's child in time. */
-int groups_in_box(const packet *p, __global const rt_node *n, int c)
+INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
 {
     int groups = 0;
     for (int g = 0; g < RT_GROUPS; ++g) {
@@ -190,9 +192,9 @@ int groups_in_box(const packet *p, __global const rt_node *n, int c)
     return groups;
 }
 
-void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
-                  __global const rt_sphere *spheres, int sphere_count,
-                  __global const rt_triangle *triangles, int triangle_count)
+INLINE void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
+                         __global const rt_sphere *spheres, int sphere_count,
+                         __global const rt_triangle *triangles, int triangle_count)
 {
     int node_of[RT_STACK]; /* parent * RT_WIDTH + child */
     float enter_of[RT_STACK];
@@ -201,7 +203,8 @@ void closest_hits(packet *p, __global const rt_node *nodes, __global const int *
     BUNDLE_AXIS(p, x, &b.x);
     BUNDLE_AXIS(p, y, &b.y);
     BUNDLE_AXIS(p, z, &b.z);
-    refresh_limits(p, &b);
+    b.tmin = least_tmin(p);
+    b.tmax = farthest(p);
     int node = b.tmin <= b.tmax ? 0 : -1;
     while (node >= 0) {
         __global const rt_node *n = nodes + node;
@@ -243,17 +246,19 @@ void closest_hits(packet *p, __global const rt_node *nodes, __global const int *
             }
             const int first = child & (RT_LEAF_SLOTS - 1);
             const int count = (child >> RT_LEAF_COUNT_SHIFT & (RT_LEAF_COUNT_MAX - 1)) + 1;
+            int changed;
 #if RT_SPHERES && RT_TRIANGLES
             if (child & RT_LEAF_SPHERES)
-                offer_spheres(p, groups, spheres, order, first, count);
+                changed = offer_spheres(p, groups, spheres, order, first, count);
             else
-                offer_triangles(p, groups, triangles, order, sphere_count, first, count);
+                changed = offer_triangles(p, groups, triangles, order, sphere_count, first, count);
 #elif RT_SPHERES
-            offer_spheres(p, groups, spheres, order, first, count);
+            changed = offer_spheres(p, groups, spheres, order, first, count);
 #else
-            offer_triangles(p, groups, triangles, order, sphere_count, first, count);
+            changed = offer_triangles(p, groups, triangles, order, sphere_count, first, count);
 #endif
-            refresh_limits(p, &b);
+            if (changed)
+                b.tmax = farthest(p);
         }
     }
 }
