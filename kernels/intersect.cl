@@ -12,7 +12,8 @@ typedef struct rays {
 typedef struct hits {
     mask index; /* RT_MISS where nothing is hit yet */
     mask slot;  /* where the primitive lies among those of its kind on the device */
-    real t, u, v;
+    real t;
+    real u, v, det; /* barycentric coordinates times det; divided once, when the walk is over */
 } hits;
 
 /* The part of the rays within a box, as t from `enter` to `leave`; empty where enter > leave. The
@@ -99,6 +100,7 @@ INLINE int hit_sphere(const rays *r, hits *h, rt_sphere sphere, int index, int s
     const mask on = accept(r, h, meets, t, enter, leave, index, slot);
     h->u = SELECT(h->u, (real)0.0f, on);
     h->v = SELECT(h->v, (real)0.0f, on);
+    h->det = SELECT(h->det, (real)1.0f, on);
     return ANY(on);
 }
 #endif
@@ -146,8 +148,9 @@ INLINE int hit_triangle(const rays *r, hits *h, rt_triangle triangle, int index,
     real enter, leave;
     box_interval(r, x.lo, x.hi, y.lo, y.hi, z.lo, z.hi, &enter, &leave);
     const mask on = accept(r, h, inside, t, enter, leave, index, slot);
-    h->u = SELECT(h->u, DIVIDE(u, det), on);
-    h->v = SELECT(h->v, DIVIDE(v, det), on);
+    h->u = SELECT(h->u, u, on);
+    h->v = SELECT(h->v, v, on);
+    h->det = SELECT(h->det, det, on);
     return ANY(on);
 }
 #endif

@@ -34,6 +34,7 @@ INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *
     h->slot = (mask)RT_MISS;
     h->u = (real)0.0f;
     h->v = (real)0.0f;
+    h->det = (real)1.0f;
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
@@ -56,7 +57,7 @@ rt_trace(const int stride, __global const float *ray_array, __global const rt_no
         STORE_MASK(h->index, hit_index + at);
         STORE_MASK(h->slot, hit_slot + at);
         STORE_REAL(t, hit_array + at + RT_HIT_T * step);
-        STORE_REAL(h->u, hit_array + at + RT_HIT_U * step);
-        STORE_REAL(h->v, hit_array + at + RT_HIT_V * step);
+        STORE_REAL(DIVIDE(h->u, h->det), hit_array + at + RT_HIT_U * step);
+        STORE_REAL(DIVIDE(h->v, h->det), hit_array + at + RT_HIT_V * step);
     }
 }

@@ -9,6 +9,8 @@
 #include "parallel.h"
 
 #define LEAF_TARGET 4 /* primitives at which a range is split no further */
+/* Primitives below which a range is expected to fit into one node. */
+#define NODE_PRIMITIVES ((size_t)RT_WIDTH * (LEAF_TARGET - 1))
 #define BINS_MAX 16
 /* Binary splits below which ranges are halved by count: bounds the depth for any input. */
 #define DEPTH_OF_HEURISTIC 48
@@ -353,16 +355,21 @@ static void set_child(rt_node *node, int i, const box *bounds, int32_t child)
     node->child[i] = child;
 }
 
-/* Opens the range of the largest area again and again until there are RT_WIDTH or only leaves. */
+/* Opens the range of the largest area again and again, until there are RT_WIDTH or none is left that
+ * is worth it. One that fits into a single node of full leaves stays whole, unless it is all there
+ * is: opened, it would leave nodes below half empty. */
 static int open_ranges(builder *b, range children[RT_WIDTH])
 {
     int count = 1;
     bool closed[RT_WIDTH] = {false};
+    const size_t whole = children[0].end - children[0].begin;
+    const size_t fits = whole > NODE_PRIMITIVES ? NODE_PRIMITIVES : 0;
     while (count < RT_WIDTH) {
         int widest = -1;
         float area = -1.0f;
         for (int i = 0; i < count; ++i) {
-            closed[i] = closed[i] || is_leaf(b, &children[i]);
+            closed[i] = closed[i] || children[i].end - children[i].begin <= fits ||
+                        is_leaf(b, &children[i]);
             if (!closed[i] && half_area(&children[i].bounds) > area) {
                 area = half_area(&children[i].bounds);
                 widest = i;
