@@ -192,7 +192,8 @@ static bool apply_triangle(parser *p, rt_source *src, const rt_line *l)
             p->degenerate_place = (rt_place){src->name, src->line};
     }
     float record[RT_NORMAL_COMPONENTS];
-    gather_normals(normals, record);
+    if (given)
+        gather_normals(normals, record);
     if (given && !p->scene->smooth_place.line)
         p->scene->smooth_place = (rt_place){src->name, src->line};
     return rt_scene_add_triangle(p->scene, &t, given ? record : NULL, material, p->status);
@@ -286,7 +287,7 @@ static bool check_order(parser *p, rt_source *src, const rt_line *l)
 /* One line that has a token. False after an error; the rest of the line is then skipped. */
 static bool read_line(parser *p, rt_source *src, const rt_word *keyword)
 {
-    rt_line l = {.id = RT_STATEMENT_COUNT};
+    rt_line l; /* set by rt_line_begin */
     const bool in_order = p->has_version || rt_word_equals(keyword, "rt");
     if (!in_order) {
         p->has_version = true; /* said once */
