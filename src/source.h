@@ -46,6 +46,9 @@ static inline bool rt_word_equals(const rt_word *word, const char *text)
 /* A column of the current line, from 1, in characters of UTF-8. */
 int rt_source_column(const rt_source *source, const char *at);
 
+/* Bytes of a path of a file that is refused that a message shows. */
+#define RT_PATH_SHOWN 200
+
 /* Adds "file:line:column: error: " and the message; always false. */
 #define RT_FAIL_AT(source, at, format, ...)                                                        \
     rt_status_fail((source)->status, RT_ERROR_SCENE, "%s:%d:%d: error: " format, (source)->name,   \
