@@ -8,9 +8,17 @@
 
 bool rt_array_grow(void *array, size_t count, size_t *capacity, size_t element_size)
 {
-    if (count < *capacity)
+    return count < *capacity || rt_array_reserve(array, count + 1, capacity, element_size);
+}
+
+bool rt_array_reserve(void *array, size_t needed, size_t *capacity, size_t element_size)
+{
+    if (needed <= *capacity)
         return true;
-    const size_t grown = *capacity ? 2 * *capacity : FIRST_CAPACITY;
+    /* At least twice as much, so that many small steps cost no more than one each. */
+    size_t grown = *capacity ? 2 * *capacity : FIRST_CAPACITY;
+    if (grown < needed)
+        grown = needed;
     if (grown > SIZE_MAX / element_size / 2)
         return false;
     /* Copied, because a pointer to an element type may not be read as a pointer to void. */

@@ -10,6 +10,9 @@
  * memory. */
 bool rt_array_grow(void *array, size_t count, size_t *capacity, size_t element_size);
 
+/* Likewise for `needed` elements in all. */
+bool rt_array_reserve(void *array, size_t needed, size_t *capacity, size_t element_size);
+
 #define RT_ARRAY_GROW(array, count, capacity)                                                      \
     rt_array_grow(&(array), count, capacity, sizeof *(array))
 

@@ -55,6 +55,14 @@ const char *rt_file_read(const char *path, rt_file_text *text)
     return reason;
 }
 
+char *rt_file_beside(const char *path, const char *name, size_t length)
+{
+    const char *slash = strrchr(path, '/');
+    const int folder = !slash || (length > 0 && name[0] == '/') ? 0 : (int)(slash + 1 - path);
+    char *joined = NULL;
+    return asprintf(&joined, "%.*s%.*s", folder, path, (int)length, name) < 0 ? NULL : joined;
+}
+
 void rt_file_free(rt_file_text *text)
 {
     free(text->bytes);

@@ -16,6 +16,9 @@ typedef struct rt_file_text {
 /* Reads a file, or standard input for NULL. Returns NULL on success, else the reason as text that
  * needs no release; *text is then empty. */
 const char *rt_file_read(const char *path, rt_file_text *text);
+/* The path that `name` has where the file `path` names it: as it is when it begins with a slash,
+ * else relative to the folder of `path`. The caller frees it; NULL without memory. */
+char *rt_file_beside(const char *path, const char *name, size_t length);
 void rt_file_free(rt_file_text *text);
 
 /* A file on its way out. It is opened before the work, so that a target that cannot be written is

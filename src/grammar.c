@@ -33,6 +33,10 @@
     {                                                                                              \
         name, RT_VALUE_CHOICE, 0, 0, 0, choices, fallback, meaning                                 \
     }
+#define MATERIAL(fallback, meaning)                                                                \
+    {                                                                                              \
+        "material", RT_VALUE_MATERIAL, 0, 0, 0, NULL, fallback, meaning                            \
+    }
 #define PLAIN(name, kind, meaning)                                                                 \
     {                                                                                              \
         name, kind, 0, 0, 0, NULL, NULL, meaning                                                   \
@@ -99,17 +103,25 @@ const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
                              "a sphere",
                              {POINT("center", NULL, "its centre"),
                               NUMBER("radius", 0.0, FLT_MAX, 1, NULL, "its radius"),
-                              PLAIN("material", RT_VALUE_MATERIAL, "its surface")}},
+                              MATERIAL(NULL, "its surface")}},
     [RT_STATEMENT_TRIANGLE] = {"triangle",
                                NULL,
                                0,
                                "a triangle; smooth with `na`, `nb`, `nc`, which go together",
                                {POINT("a", NULL, "first corner"), POINT("b", NULL, "second corner"),
-                                POINT("c", NULL, "third corner"),
-                                PLAIN("material", RT_VALUE_MATERIAL, "its surface"),
+                                POINT("c", NULL, "third corner"), MATERIAL(NULL, "its surface"),
                                 POINT("na", "none", "normal at a, of any length"),
                                 POINT("nb", "none", "normal at b"),
                                 POINT("nc", "none", "normal at c")}},
+    [RT_STATEMENT_MESH] = {"mesh",
+                           NULL,
+                           0,
+                           "the triangles of an OBJ, PLY or STL file",
+                           {PLAIN(NULL, RT_VALUE_PATH, "path, relative to the file that names it"),
+                            MATERIAL("the file's own", "surface of all its triangles"),
+                            NUMBER("scale", 0.0, FLT_MAX, 1, "1", "its size; comes first"),
+                            POINT("rotate", "0 0 0", "degrees about x, then y, then z"),
+                            POINT("translate", "0 0 0", "the way it is moved; comes last")}},
     [RT_STATEMENT_CULL] = {"cull",
                            NULL,
                            1,

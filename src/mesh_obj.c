@@ -65,10 +65,8 @@ static bool define_materials(reader *r, size_t first)
  * an error in the library, which *good tells; else the reason why it cannot be read. */
 static const char *read_library(reader *r, rt_token name, bool *good)
 {
-    const char *slash = strrchr(r->text.name, '/');
-    const int folder = name.text[0] == '/' || !slash ? 0 : (int)(slash + 1 - r->text.name);
-    char *path = NULL;
-    if (asprintf(&path, "%.*s%.*s", folder, r->text.name, (int)name.length, name.text) < 0) {
+    char *path = rt_file_beside(r->text.name, name.text, name.length);
+    if (!path) {
         *good = rt_status_no_memory(r->text.status, "a path");
         return NULL;
     }

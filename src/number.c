@@ -26,18 +26,30 @@ static bool is_digit(char c)
 /* A decimal number taken apart: digits * 10^exponent. */
 typedef struct decimal {
     uint64_t digits;
-    int digit_count; /* significant digits seen; past EXACT_DIGITS `digits` is not the value */
+    bool is_cut; /* more than EXACT_DIGITS significant digits: `digits` is not the value */
     long exponent;
     bool negative;
 } decimal;
 
-/* Takes in one digit; leading zeros are not significant. */
-static void take_digit(decimal *d, char c)
+/* Whether text that is digits, perhaps with a point among them, has more significant digits than 64
+ * bits are sure to hold; leading zeros are not significant. */
+static bool has_too_many(const char *p, const char *end)
 {
-    if (d->digit_count > 0 || c != '0')
-        d->digit_count++;
-    if (d->digit_count <= EXACT_DIGITS)
-        d->digits = d->digits * 10 + (uint64_t)(c - '0');
+    while (p < end && (*p == '0' || *p == '.'))
+        ++p;
+    const bool has_point = memchr(p, '.', (size_t)(end - p)) != NULL;
+    return end - p - has_point > EXACT_DIGITS;
+}
+
+/* Takes in the digits from `p` on and returns their end. What follows a number is readable and does
+ * not go on with it, so no end needs to be watched. */
+static const char *take_digits(const char *p, uint64_t *digits)
+{
+    uint64_t sum = *digits;
+    for (; is_digit(*p); ++p)
+        sum = sum * 10 + (uint64_t)(*p - '0');
+    *digits = sum;
+    return p;
 }
 
 static const char *read_exponent(const char *p, const char *end, decimal *d)
@@ -58,22 +70,21 @@ static const char *read_exponent(const char *p, const char *end, decimal *d)
 /* Returns false where the text is not a decimal number from start to end. */
 static bool read_decimal(const char *p, const char *end, decimal *d)
 {
-    *d = (decimal){0, 0, 0, false};
-    if (p < end && (*p == '+' || *p == '-'))
+    *d = (decimal){0, false, 0, false};
+    if (*p == '+' || *p == '-')
         d->negative = *p++ == '-';
     const char *first = p;
-    for (; p < end && is_digit(*p); ++p)
-        take_digit(d, *p);
-    bool any = p > first;
-    if (p < end && *p == '.') {
-        first = ++p;
-        for (; p < end && is_digit(*p); ++p)
-            take_digit(d, *p);
-        any = any || p > first;
-        d->exponent -= (long)(p - first);
+    p = take_digits(p, &d->digits);
+    long count = p - first;
+    if (*p == '.') {
+        const char *point = p++;
+        p = take_digits(p, &d->digits);
+        d->exponent = -(p - point - 1);
+        count -= d->exponent;
     }
-    if (!any)
+    if (count == 0)
         return false;
+    d->is_cut = count > EXACT_DIGITS && has_too_many(first, p);
     if (p < end && (*p == 'e' || *p == 'E'))
         p = read_exponent(p + 1, end, d);
     return p == end;
@@ -104,12 +115,12 @@ enum rt_number_result rt_number_float(const char *text, size_t length, float *va
     decimal d;
     if (!read_decimal(text, text + length, &d))
         return RT_NUMBER_SYNTAX;
-    if (d.digits == 0 && d.digit_count == 0) {
+    if (d.digits == 0 && !d.is_cut) {
         *value = d.negative ? -0.0f : 0.0f;
         return RT_NUMBER_OK;
     }
-    if (d.digit_count <= EXACT_DIGITS && d.digits < (UINT64_C(1) << 53) &&
-        d.exponent >= -EXACT_POWER && d.exponent <= EXACT_POWER) {
+    if (!d.is_cut && d.digits < (UINT64_C(1) << 53) && d.exponent >= -EXACT_POWER &&
+        d.exponent <= EXACT_POWER) {
         const double digits = (double)d.digits;
         const double magnitude = d.exponent < 0 ? digits / powers_of_ten[-d.exponent]
                                                 : digits * powers_of_ten[d.exponent];

@@ -47,9 +47,9 @@ bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_stat
     return true;
 }
 
-static bool has_free_index(const rt_scene *scene, rt_status *status)
+static bool has_free_indices(const rt_scene *scene, size_t count, rt_status *status)
 {
-    if (scene->sphere_count + scene->triangle_count < INT32_MAX)
+    if (count <= INT32_MAX - scene->sphere_count - scene->triangle_count)
         return true;
     return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
 }
@@ -57,7 +57,7 @@ static bool has_free_index(const rt_scene *scene, rt_status *status)
 bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
                          rt_status *status)
 {
-    if (!has_free_index(scene, status))
+    if (!has_free_indices(scene, 1, status))
         return false;
     /* Two arrays grow in step: the capacity moves once both have. */
     size_t capacity = scene->sphere_capacity;
@@ -72,43 +72,44 @@ bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t mater
     return true;
 }
 
-static bool add_normals(rt_scene *scene, const float *normals)
+bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
+                                rt_status *status)
 {
-    size_t capacity = scene->normal_capacity * RT_NORMAL_COMPONENTS;
-    const size_t used = scene->normal_count * RT_NORMAL_COMPONENTS;
-    if (used + RT_NORMAL_COMPONENTS > capacity) {
-        capacity = scene->normal_capacity ? 2 * scene->normal_capacity : 64;
-        float *grown =
-            realloc(scene->normals, capacity * RT_NORMAL_COMPONENTS * sizeof *scene->normals);
-        if (!grown)
-            return false;
-        scene->normals = grown;
-        scene->normal_capacity = capacity;
-    }
-    memcpy(scene->normals + used, normals, RT_NORMAL_COMPONENTS * sizeof *normals);
-    scene->normal_count++;
-    return true;
+    if (!has_free_indices(scene, triangles, status))
+        return false;
+    /* Three arrays grow in step: the capacity moves once all have. */
+    const size_t needed = scene->triangle_count + triangles;
+    size_t capacity = scene->triangle_capacity;
+    bool grown = rt_array_reserve(&scene->triangles, needed, &capacity, sizeof *scene->triangles);
+    capacity = scene->triangle_capacity;
+    grown = grown && rt_array_reserve(&scene->triangle_materials, needed, &capacity,
+                                      sizeof *scene->triangle_materials);
+    capacity = scene->triangle_capacity;
+    grown = grown && rt_array_reserve(&scene->triangle_normals, needed, &capacity,
+                                      sizeof *scene->triangle_normals);
+    if (grown)
+        scene->triangle_capacity = capacity;
+    grown =
+        grown && rt_array_reserve(&scene->normals, scene->normal_count + normals,
+                                  &scene->normal_capacity, RT_NORMAL_COMPONENTS * sizeof(float));
+    return grown || rt_status_no_memory(status, "triangles");
 }
 
 bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
                            int32_t material, rt_status *status)
 {
-    if (!has_free_index(scene, status))
-        return false;
     const size_t count = scene->triangle_count;
-    size_t capacity = scene->triangle_capacity;
-    bool grown = RT_ARRAY_GROW(scene->triangles, count, &capacity);
-    capacity = scene->triangle_capacity;
-    grown = grown && RT_ARRAY_GROW(scene->triangle_materials, count, &capacity);
-    capacity = scene->triangle_capacity;
-    grown = grown && RT_ARRAY_GROW(scene->triangle_normals, count, &capacity);
-    grown = grown && (!normals || add_normals(scene, normals));
-    if (!grown)
-        return rt_status_no_memory(status, "triangles");
-    scene->triangle_capacity = capacity;
+    const bool has_room = count < scene->triangle_capacity &&
+                          (!normals || scene->normal_count < scene->normal_capacity);
+    if (!(has_room ? has_free_indices(scene, 1, status)
+                   : rt_scene_reserve_triangles(scene, 1, normals ? 1 : 0, status)))
+        return false;
     scene->triangles[count] = *triangle;
     scene->triangle_materials[count] = material;
-    scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count - 1 : -1;
+    scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count : -1;
+    if (normals)
+        memcpy(scene->normals + RT_NORMAL_COMPONENTS * scene->normal_count++, normals,
+               RT_NORMAL_COMPONENTS * sizeof *normals);
     scene->triangle_count++;
     return true;
 }
@@ -217,6 +218,21 @@ bool rt_triangle_is_degenerate(const rt_triangle *t)
      * corners' magnitudes are within 2^28 of each other. */
     cross(normal, e1, e2);
     return normal[0] == 0.0 && normal[1] == 0.0 && normal[2] == 0.0;
+}
+
+bool rt_triangle_settle(rt_triangle *t, float *normals)
+{
+    float largest = 0.0f;
+    for (int i = 0; normals && i < RT_NORMAL_COMPONENTS; ++i)
+        largest = fmaxf(largest, fabsf(normals[i]));
+    /* In double, since the factor may be outside fp32. */
+    const double factor = largest > 0.0f ? ldexp(1.0, -ilogbf(largest)) : 1.0;
+    for (int i = 0; normals && i < RT_NORMAL_COMPONENTS; ++i)
+        normals[i] = (float)(factor * (double)normals[i]);
+    if (!rt_triangle_is_degenerate(t))
+        return true;
+    *t = (rt_triangle){t->ax, t->ay, t->az, t->ax, t->ay, t->az, t->ax, t->ay, t->az};
+    return false;
 }
 
 int rt_scene_cull_sign(const rt_scene *scene)

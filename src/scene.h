@@ -74,6 +74,10 @@ bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t mater
 bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
                            int32_t material, rt_status *status);
 
+/* Makes room at once for so many triangles more, and records of normals. */
+bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
+                                rt_status *status);
+
 /* A material for the given coefficients (ka, kd, ks: r g b each). */
 rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
                              float shininess);
@@ -93,6 +97,12 @@ rt_frame rt_scene_frame(const rt_scene *scene);
 /* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
  * has no area. */
 bool rt_triangle_is_degenerate(const rt_triangle *triangle);
+
+/* Makes a triangle as a file gives it fit for the scene. One without area becomes a single point,
+ * so that it keeps its index and its determinant is 0 for every ray. `normals`, NULL or nine
+ * floats, are multiplied by a common power of two, which is exact and keeps their weights, so that
+ * sums of them neither overflow nor vanish. Returns whether the triangle has area. */
+bool rt_triangle_settle(rt_triangle *triangle, float *normals);
 
 /* +1 or -1: the only sign of the Moller-Trumbore determinant that is a hit; 0: both are. */
 int rt_scene_cull_sign(const rt_scene *scene);

@@ -173,12 +173,14 @@ static bool fail_unknown_name(rt_source *source, const rt_line *l, const rt_word
                       RT_SHOWN(word), l->statement->keyword, list);
 }
 
-/* The field that a token names. Pairs mostly come in the table's order, so the search starts after
- * the last one found. */
+/* The field that a token names, or `count`. Pairs mostly come in the table's order, so the search
+ * starts after the last one found. */
 static size_t find_field(const rt_line *l, const rt_word *word, size_t start, size_t count)
 {
-    for (size_t i = 0; i < count; ++i) {
-        const size_t index = (start + i) % count;
+    size_t index = start;
+    for (size_t i = 0; i < count; ++i, ++index) {
+        if (index >= count)
+            index = 0;
         const rt_field *field = &l->statement->fields[index];
         if (field->name && rt_word_equals(word, field->name))
             return index;
@@ -274,6 +276,8 @@ bool rt_line_begin(rt_source *source, const rt_word *keyword, rt_line *l)
             l->id = (enum rt_statement_id)i;
             l->statement = s;
             l->start = keyword->text;
+            for (size_t k = 0; k < RT_FIELDS_MAX; ++k)
+                l->values[k].given = false;
             return true;
         }
     }

@@ -7,7 +7,8 @@
 #include "grammar.h"
 #include "source.h"
 
-/* What a field was given; which member counts follows from the field's kind. */
+/* What a field was given; which member counts follows from the field's kind, and none does where
+ * `given` is false. */
 typedef struct rt_value {
     float number[3];
     int64_t count;

@@ -11,10 +11,9 @@
 #include "array.h"
 #include "file.h"
 #include "scene_line.h"
+#include "scene_mesh.h"
 
 #define INCLUDE_DEPTH_MAX 16
-/* Bytes of a path that cannot be read that a message shows. */
-#define PATH_SHOWN 200
 
 typedef struct material_name {
     char *text;
@@ -159,17 +158,12 @@ static bool apply_sphere(parser *p, rt_source *src, const rt_line *l)
     return material >= 0 && rt_scene_add_sphere(p->scene, &sphere, material, p->status);
 }
 
-/* The vertex normals by a common power of two, which is exact and keeps their weights, so that sums
- * of them neither overflow nor vanish. */
-static void gather_normals(const rt_value *normals, float record[RT_NORMAL_COMPONENTS])
+/* Counts triangles without area; the warning names the first statement that has one. */
+static void note_degenerate(parser *p, const rt_source *src, size_t count)
 {
-    float largest = 0.0f;
-    for (int i = 0; i < RT_NORMAL_COMPONENTS; ++i) {
-        record[i] = normals[i / 3].number[i % 3];
-        largest = fmaxf(largest, fabsf(record[i]));
-    }
-    for (int i = 0; largest > 0.0f && i < RT_NORMAL_COMPONENTS; ++i)
-        record[i] = ldexpf(record[i], -ilogbf(largest));
+    if (count > 0 && p->degenerate_count == 0)
+        p->degenerate_place = (rt_place){src->name, src->line};
+    p->degenerate_count += count;
 }
 
 static bool apply_triangle(parser *p, rt_source *src, const rt_line *l)
@@ -185,17 +179,25 @@ static bool apply_triangle(parser *p, rt_source *src, const rt_line *l)
         return false;
     rt_triangle t = {a->number[0], a->number[1], a->number[2], b->number[0], b->number[1],
                      b->number[2], c->number[0], c->number[1], c->number[2]};
-    if (rt_triangle_is_degenerate(&t)) {
-        /* It keeps its index; as a single point its determinant is 0 for every ray. */
-        t = (rt_triangle){t.ax, t.ay, t.az, t.ax, t.ay, t.az, t.ax, t.ay, t.az};
-        if (p->degenerate_count++ == 0)
-            p->degenerate_place = (rt_place){src->name, src->line};
-    }
     float record[RT_NORMAL_COMPONENTS];
-    gather_normals(normals, record);
+    for (int i = 0; given && i < RT_NORMAL_COMPONENTS; ++i)
+        record[i] = normals[i / 3].number[i % 3];
+    note_degenerate(p, src, rt_triangle_settle(&t, given ? record : NULL) ? 0 : 1);
     if (given && !p->scene->smooth_place.line)
         p->scene->smooth_place = (rt_place){src->name, src->line};
     return rt_scene_add_triangle(p->scene, &t, given ? record : NULL, material, p->status);
+}
+
+static bool apply_mesh(parser *p, rt_source *src, const rt_line *l)
+{
+    const rt_value *material = &l->values[1];
+    const int32_t index = material->given ? find_material(p, src, &material->word) : -1;
+    size_t degenerate_count = 0;
+    if ((material->given && index < 0) ||
+        !rt_scene_mesh_add(p->scene, src, l, index, &degenerate_count))
+        return false;
+    note_degenerate(p, src, degenerate_count);
+    return true;
 }
 
 static bool apply_cull(parser *p, rt_source *src, const rt_line *l)
@@ -214,10 +216,8 @@ static bool read_file(parser *p, const char *path, rt_source *includer, const ch
 static bool apply_include(parser *p, rt_source *src, const rt_line *l)
 {
     const rt_word *word = &l->values[0].word;
-    const char *slash = strrchr(src->name, '/');
-    const int folder = word->text[0] == '/' || !slash ? 0 : (int)(slash + 1 - src->name);
-    char *path = NULL;
-    if (asprintf(&path, "%.*s%.*s", folder, src->name, (int)word->length, word->text) < 0)
+    char *path = rt_file_beside(src->name, word->text, word->length);
+    if (!path)
         return rt_status_no_memory(p->status, "a path");
     int depth = 1;
     for (const rt_source *s = src; s; s = s->includer, ++depth)
@@ -264,6 +264,8 @@ static bool apply(parser *p, rt_source *src, const rt_line *l)
         return apply_sphere(p, src, l);
     case RT_STATEMENT_TRIANGLE:
         return apply_triangle(p, src, l);
+    case RT_STATEMENT_MESH:
+        return apply_mesh(p, src, l);
     case RT_STATEMENT_CULL:
         return apply_cull(p, src, l);
     case RT_STATEMENT_COUNT:
@@ -286,7 +288,7 @@ static bool check_order(parser *p, rt_source *src, const rt_line *l)
 /* One line that has a token. False after an error; the rest of the line is then skipped. */
 static bool read_line(parser *p, rt_source *src, const rt_word *keyword)
 {
-    rt_line l = {.id = RT_STATEMENT_COUNT};
+    rt_line l; /* set by rt_line_begin */
     const bool in_order = p->has_version || rt_word_equals(keyword, "rt");
     if (!in_order) {
         p->has_version = true; /* said once */
@@ -338,7 +340,7 @@ static bool read_file(parser *p, const char *path, rt_source *includer, const ch
     rt_file_text text;
     const char *reason = rt_file_read(is_stdin ? NULL : path, &text);
     if (reason && includer)
-        return RT_FAIL_AT(includer, at, "cannot read '%.*s': %s", PATH_SHOWN, path, reason);
+        return RT_FAIL_AT(includer, at, "cannot read '%.*s': %s", RT_PATH_SHOWN, path, reason);
     if (reason)
         return rt_status_fail(p->status, RT_ERROR_SCENE, "rt: cannot read '%s': %s", path, reason);
     rt_source src = {name,     text.bytes + text.length, text.bytes, text.bytes, 1, includer,

@@ -1,5 +1,6 @@
 #include "source.h"
 
+#include <limits.h>
 #include <string.h>
 
 /* Characters of a word that a message shows. */
@@ -33,20 +34,30 @@ const char *rt_word_ellipsis(const rt_word *word)
     return span_of(word) > SHOWN_CHARACTERS ? "..." : "";
 }
 
-static bool is_blank(char c)
+/* What a character is to a line; every other one makes words. */
+enum character { ORDINARY, BLANK, LINE_END, QUOTE, NUL };
+
+static const unsigned char characters[UCHAR_MAX + 1] = {
+    [' '] = BLANK,     ['\t'] = BLANK,   ['\r'] = BLANK, ['\v'] = BLANK, ['\f'] = BLANK,
+    ['\n'] = LINE_END, ['#'] = LINE_END, ['"'] = QUOTE,  ['\0'] = NUL};
+
+static enum character class_of(char c)
 {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+    return (enum character)characters[(unsigned char)c];
 }
 
-static bool is_line_end(const rt_source *source, const char *p)
+/* The first place from `p` on that is of another class. The text's terminator is a NUL, so blanks
+ * and words end there at the latest. */
+static const char *skip(const char *p, enum character c)
 {
-    return p >= source->end || *p == '\n' || *p == '#';
+    while (class_of(*p) == c)
+        ++p;
+    return p;
 }
 
 void rt_source_skip_blanks(rt_source *source)
 {
-    while (source->cursor < source->end && is_blank(*source->cursor))
-        ++source->cursor;
+    source->cursor = skip(source->cursor, BLANK);
 }
 
 void rt_source_next_line(rt_source *source)
@@ -62,42 +73,30 @@ static bool fail_nul(rt_source *source, const char *at)
     return RT_FAIL_AT(source, at, "%s", "a NUL byte: this is not a text file");
 }
 
+static bool read_quoted(rt_source *source, rt_word *word)
+{
+    word->text = ++source->cursor;
+    word->quoted = true;
+    while (source->cursor < source->end && *source->cursor != '"' && *source->cursor != '\n')
+        ++source->cursor;
+    if (source->cursor >= source->end || *source->cursor != '"')
+        return RT_FAIL_AT(source, word->text - 1, "%s", "a quote is opened and not closed");
+    word->length = (size_t)(source->cursor++ - word->text);
+    const char *nul = memchr(word->text, '\0', word->length);
+    return !nul || fail_nul(source, nul);
+}
+
 bool rt_source_word(rt_source *source, rt_word *word)
 {
-    rt_source_skip_blanks(source);
-    *word = (rt_word){source->cursor, 0, false};
-    if (is_line_end(source, source->cursor))
-        return true;
-    if (*source->cursor == '"') {
-        word->text = ++source->cursor;
-        word->quoted = true;
-        while (source->cursor < source->end && *source->cursor != '"' && *source->cursor != '\n')
-            ++source->cursor;
-        if (source->cursor >= source->end || *source->cursor != '"')
-            return RT_FAIL_AT(source, word->text - 1, "%s", "a quote is opened and not closed");
-        word->length = (size_t)(source->cursor++ - word->text);
-        const char *nul = memchr(word->text, '\0', word->length);
-        if (nul)
-            return fail_nul(source, nul);
-        return true;
-    }
-    while (!is_line_end(source, source->cursor) && !is_blank(*source->cursor) &&
-           *source->cursor != '"') {
-        if (*source->cursor == '\0')
-            return fail_nul(source, source->cursor);
-        ++source->cursor;
-    }
-    word->length = (size_t)(source->cursor - word->text);
+    const char *start = skip(source->cursor, BLANK);
+    source->cursor = start;
+    *word = (rt_word){start, 0, false};
+    if (class_of(*start) == QUOTE && start < source->end)
+        return read_quoted(source, word);
+    const char *end = skip(start, ORDINARY);
+    if (class_of(*end) == NUL && end < source->end)
+        return fail_nul(source, end);
+    source->cursor = end;
+    word->length = (size_t)(end - start);
     return true;
-}
-
-bool rt_word_is_end(const rt_word *word)
-{
-    return word->length == 0 && !word->quoted;
-}
-
-bool rt_word_equals(const rt_word *word, const char *text)
-{
-    return !word->quoted && strncmp(word->text, text, word->length) == 0 &&
-           text[word->length] == '\0';
 }

@@ -10,7 +10,7 @@
 /* One file being read; the caller owns name and text. */
 typedef struct rt_source {
     const char *name;
-    const char *end; /* one past the last byte; *end is a terminator */
+    const char *end; /* one past the last byte; *end is a NUL */
     const char *line_start, *cursor;
     int line; /* from 1 */
     const struct rt_source *includer;
@@ -29,12 +29,25 @@ bool rt_source_word(rt_source *source, rt_word *word);
 void rt_source_skip_blanks(rt_source *source);
 void rt_source_next_line(rt_source *source);
 
-bool rt_word_is_end(const rt_word *word);
-/* True for that word without quotes. */
-bool rt_word_equals(const rt_word *word, const char *text);
+static inline bool rt_word_is_end(const rt_word *word)
+{
+    return word->length == 0 && !word->quoted;
+}
+
+/* True for that word without quotes. Words are short, hence no library call. */
+static inline bool rt_word_equals(const rt_word *word, const char *text)
+{
+    for (size_t i = 0; i < word->length; ++i)
+        if (word->text[i] != text[i] || text[i] == '\0')
+            return false;
+    return text[word->length] == '\0' && !word->quoted;
+}
 
 /* A column of the current line, from 1, in characters of UTF-8. */
 int rt_source_column(const rt_source *source, const char *at);
+
+/* Bytes of a path of a file that is refused that a message shows. */
+#define RT_PATH_SHOWN 200
 
 /* Adds "file:line:column: error: " and the message; always false. */
 #define RT_FAIL_AT(source, at, format, ...)                                                        \

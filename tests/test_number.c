@@ -92,6 +92,10 @@ static void ties_round_once(void **state)
     same_as_library("1e-400");
     same_as_library("0e999999999999");
     same_as_library("000000000000000000000000000000.00000000000000000000000000001");
+    same_as_library("18446744073709551616"); /* 2^64: twenty digits that leave 64 bits at 0 */
+    same_as_library("0000000000000000000000.01234567890123456789");
+    same_as_library("00000000000000000000000000000000000000000.0000000000000000000");
+    same_as_library("0.00000000000000000000000000123456789012345678901234567890");
 }
 
 static void only_decimal_numbers_are_numbers(void **state)
