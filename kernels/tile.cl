@@ -12,8 +12,8 @@ pixel tile_pixel(rt_tile tile)
     const int block = (int)get_group_id(0);
     const int local_id = (int)get_local_id(0);
     pixel p;
-    p.column = block % blocks_per_row * RT_BLOCK_SIDE + local_id % RT_BLOCK_SIDE;
-    p.row = block / blocks_per_row * RT_BLOCK_SIDE + local_id / RT_BLOCK_SIDE;
+    p.column = block % blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(local_id);
+    p.row = block / blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_ROW(local_id);
     p.inside = (p.column < tile.width) & (p.row < tile.height);
     return p;
 }

@@ -8,6 +8,11 @@
 #define RT_BLOCK_SIDE 8
 #define RT_BLOCK_RAYS (RT_BLOCK_SIDE * RT_BLOCK_SIDE)
 
+/* Within a block, rays go through its four quadrants of 4x4: a vector of 16 is then as compact as
+ * can be. Column and row of the block's ray i. */
+#define RT_BLOCK_COLUMN(i) (((i) & 3) | ((i) >> 2 & 4))
+#define RT_BLOCK_ROW(i) (((i) >> 2 & 3) | ((i) >> 3 & 4))
+
 /* Components of a ray array: component c of ray i lies at [c * stride + i]. */
 #define RT_RAY_OX 0
 #define RT_RAY_OY 1

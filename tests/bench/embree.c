@@ -59,14 +59,6 @@ typedef struct worker {
     double start, end;
 } worker;
 
-/* Where lane `lane` of packet `packet` stands among the rays: quarters of an 8x8 block. */
-static size_t ray_of(size_t packet, size_t lane)
-{
-    const size_t half = RT_BLOCK_SIDE / 2, quarter = packet % PACKETS_PER_BLOCK;
-    const size_t x = quarter % 2 * half + lane % half, y = quarter / 2 * half + lane / half;
-    return packet / PACKETS_PER_BLOCK * RT_BLOCK_RAYS + y * RT_BLOCK_SIDE + x;
-}
-
 bool bench_packets_make(bench_packets *packets, const bench_rays *rays, rt_status *status)
 {
     const size_t count = rays->count / LANES;
@@ -76,7 +68,7 @@ bool bench_packets_make(bench_packets *packets, const bench_rays *rays, rt_statu
         return rt_status_no_memory(status, "packets");
     for (size_t i = 0; i < count; ++i)
         for (size_t lane = 0; lane < LANES; ++lane) {
-            const rt_ray *ray = &rays->rays[ray_of(i, lane)];
+            const rt_ray *ray = &rays->rays[i * LANES + lane];
             struct bench_packet *p = &packets->packets[i];
             p->ox[lane] = ray->origin[0];
             p->oy[lane] = ray->origin[1];
@@ -376,7 +368,8 @@ bool bench_embree_trace(bench_embree *e, const bench_packets *packets, enum benc
 static size_t place_of(const bench_embree *e, size_t i)
 {
     const bool is_packets = e->call == BENCH_INTERSECT16 || e->call == BENCH_OCCLUDED16;
-    return is_packets ? ray_of(i / LANES, i % LANES) : i;
+    (void)is_packets;
+    return i;
 }
 
 void bench_embree_hits(const bench_embree *e, rt_hit *hits)

@@ -48,8 +48,8 @@ bool bench_rays_primary(bench_rays *rays, const rt_scene *scene, rt_status *stat
         return false;
     for (size_t i = 0; i < rays->count; ++i) {
         const size_t block = i / RT_BLOCK_RAYS, within = i % RT_BLOCK_RAYS;
-        const double x = (double)(block % columns * RT_BLOCK_SIDE + within % RT_BLOCK_SIDE);
-        const double y = (double)(block / columns * RT_BLOCK_SIDE + within / RT_BLOCK_SIDE);
+        const double x = (double)(block % columns * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(within));
+        const double y = (double)(block / columns * RT_BLOCK_SIDE + RT_BLOCK_ROW(within));
         double d[3];
         for (int k = 0; k < 3; ++k)
             d[k] = view.right[k] * (2.0 * x + 1.0 - scene->width) +
