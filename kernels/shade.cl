@@ -39,12 +39,11 @@ float side_toward(vec3 normal, vec3 direction)
 /* The geometric normal, unit. It is made from the edges as they are and made unit last: made unit
  * before the barycentric test it would shrink the triangle, left as it is it would turn highlights
  * white. */
-void geometric_normal(rt_triangle triangle, vec3 *normal)
+void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *normal)
 {
-    const vec3 e1 = {triangle.bx - triangle.ax, triangle.by - triangle.ay,
-                     triangle.bz - triangle.az};
-    const vec3 e2 = {triangle.cx - triangle.ax, triangle.cy - triangle.ay,
-                     triangle.cz - triangle.az};
+    const vec3 a = {t->ax[k], t->ay[k], t->az[k]};
+    const vec3 e1 = {t->bx[k] - a.x, t->by[k] - a.y, t->bz[k] - a.z};
+    const vec3 e2 = {t->cx[k] - a.x, t->cy[k] - a.y, t->cz[k] - a.z};
     /* Each edge by a power of two of its own, or the product of long ones would overflow. */
     const vec3 f1 = SCALE(e1, moderating_factor(e1));
     const vec3 f2 = SCALE(e2, moderating_factor(e2));
@@ -71,19 +70,20 @@ void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_shade(const int stride, __global const float *rays, __global const int *hit_index,
          __global const int *hit_slot, __global const float *hit_array,
-         __global const rt_sphere *spheres, const int sphere_count,
-         __global const rt_triangle *triangles, __global const int *material_of,
+         __global const rt_sphere_block *spheres, const int sphere_count,
+         __global const rt_triangle_block *triangles, __global const int *material_of,
          __global const int *normals_of, __global const float *normals,
          __global const rt_material *materials, __global const rt_light *lights,
          const int light_count, const rt_surround surround, __global float *colors)
 {
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
-    const int index = hit_index[i];
-    const int slot = hit_slot[i];
     vec3 color = {surround.background_r, surround.background_g, surround.background_b};
 
+#if RT_SPHERES || RT_TRIANGLES
+    const int index = hit_index[i];
     if (index != RT_MISS) {
+        const int slot = hit_slot[i];
         const vec3 origin = LOAD3(rays, stride, i);
         const vec3 direction = LOAD3(rays + RT_RAY_DX * step, stride, i);
         const float t = hit_array[RT_HIT_T * step + i];
@@ -92,8 +92,9 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
         vec3 normal;
 #if RT_SPHERES
         if (index < sphere_count) {
-            const rt_sphere sphere = spheres[slot];
-            const vec3 center = {sphere.cx, sphere.cy, sphere.cz};
+            __global const rt_sphere_block *block = spheres + slot / RT_BLOCK_PRIMITIVES;
+            const int place = slot % RT_BLOCK_PRIMITIVES;
+            const vec3 center = {block->cx[place], block->cy[place], block->cz[place]};
             normal = SUB(vec3, point, center);
             make_unit(&normal);
             normal = SCALE(normal, side_toward(normal, direction));
@@ -104,7 +105,8 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
 #endif
 #if RT_TRIANGLES
         {
-            geometric_normal(triangles[slot], &normal);
+            geometric_normal(triangles + slot / RT_BLOCK_PRIMITIVES, slot % RT_BLOCK_PRIMITIVES,
+                             &normal);
             normal = SCALE(normal, side_toward(normal, direction));
 #if RT_SMOOTH
             const int record = normals_of[index - sphere_count];
@@ -138,6 +140,7 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
             color.z = fma(light.b, fma(m.ks_b, specular, m.kd_b * diffuse), color.z);
         }
     }
+#endif
     colors[i] = color.x;
     colors[step + i] = color.y;
     colors[2 * step + i] = color.z;

@@ -1,5 +1,6 @@
-/* Stage 2: from a ray array to a hit array, RT_PACKET rays a work-item. Rendering, tests and
- * benchmarks all launch this kernel: what is tested is what renders. */
+/* Stage 2: from a ray array to a hit array, the nearest hits, or to whether there is any hit at
+ * all, RT_PACKET rays a work-item. Rendering, tests and benchmarks all launch this kernel: what is
+ * tested is what renders. */
 
 /* 1 / d, finite: the largest float where d is zero or denormal. */
 INLINE real finite_reciprocal(real d)
@@ -37,27 +38,54 @@ INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *
     h->det = (real)1.0f;
 }
 
+/* Writes a group's hits; a miss has an infinite t, whatever tmax was. */
+INLINE void store_hits(const hits *h, size_t at, size_t step, __global int *hit_index,
+                       __global int *hit_slot, __global float *hit_array)
+{
+    const real t = SELECT(h->t, (real)INFINITY, MASK(h->index == (mask)RT_MISS));
+    STORE_MASK(h->index, hit_index + at);
+    STORE_MASK(h->slot, hit_slot + at);
+    STORE_REAL(t, hit_array + at + RT_HIT_T * step);
+    STORE_REAL(DIVIDE(h->u, h->det), hit_array + at + RT_HIT_U * step);
+    STORE_REAL(DIVIDE(h->v, h->det), hit_array + at + RT_HIT_V * step);
+}
+
+INLINE void load_packet(__global const float *source, size_t step, packet *p)
+{
+    for (int g = 0; g < RT_GROUPS; ++g)
+        load_rays(source + g * RT_LANES, step, &p->r[g], &p->h[g]);
+}
+
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
 rt_trace(const int stride, __global const float *ray_array, __global const rt_node *nodes,
-         __global const int *order, __global const rt_sphere *spheres, const int sphere_count,
-         __global const rt_triangle *triangles, const int triangle_count, __global int *hit_index,
-         __global int *hit_slot, __global float *hit_array)
+         __global const int *order, __global const rt_sphere_block *spheres,
+         const int sphere_blocks, __global const rt_triangle_block *triangles,
+         const int triangle_blocks, __global int *hit_index, __global int *hit_slot,
+         __global float *hit_array)
 {
+    const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
     const size_t step = (size_t)stride;
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;
+    load_packet(ray_array + first, step, &p);
+    walk(&p, &w, 0);
     for (int g = 0; g < RT_GROUPS; ++g)
-        load_rays(ray_array + first + g * RT_LANES, step, &p.r[g], &p.h[g]);
-    closest_hits(&p, nodes, order, spheres, sphere_count, triangles, triangle_count);
-    for (int g = 0; g < RT_GROUPS; ++g) {
-        const hits *h = &p.h[g];
-        const size_t at = first + g * RT_LANES;
-        /* A miss has an infinite t, whatever tmax was. */
-        const real t = SELECT(h->t, (real)INFINITY, MASK(h->index == (mask)RT_MISS));
-        STORE_MASK(h->index, hit_index + at);
-        STORE_MASK(h->slot, hit_slot + at);
-        STORE_REAL(t, hit_array + at + RT_HIT_T * step);
-        STORE_REAL(DIVIDE(h->u, h->det), hit_array + at + RT_HIT_U * step);
-        STORE_REAL(DIVIDE(h->v, h->det), hit_array + at + RT_HIT_V * step);
-    }
+        store_hits(&p.h[g], first + g * RT_LANES, step, hit_index, hit_slot, hit_array);
+}
+
+/* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
+ * differ from device to device; whether there is one does not. */
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
+rt_occlude(const int stride, __global const float *ray_array, __global const rt_node *nodes,
+           __global const int *order, __global const rt_sphere_block *spheres,
+           const int sphere_blocks, __global const rt_triangle_block *triangles,
+           const int triangle_blocks, __global int *hit_index)
+{
+    const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
+    const size_t first = get_global_id(0) * RT_PACKET;
+    packet p;
+    load_packet(ray_array + first, (size_t)stride, &p);
+    walk(&p, &w, 1);
+    for (int g = 0; g < RT_GROUPS; ++g)
+        STORE_MASK(p.h[g].index, hit_index + first + g * RT_LANES);
 }

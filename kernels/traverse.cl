@@ -1,58 +1,23 @@
-/* From rays to their nearest hits over all primitives. With or without a tree the result is the
- * same to the bit (kernels/intersect.cl says why), so that this is the only file that knows of one.
+/* From rays to their hits over all primitives. With or without a tree, together or one by one, the
+ * result is the same to the bit (kernels/intersect.cl says why), so that this is the only file that
+ * knows of trees.
  *
- * A work-item walks the tree with a packet of RT_PACKET rays. At a node the lanes are its children:
- * one interval test holds all 16 boxes against what all rays of the packet have in common, the
- * least and the greatest of their origins and reciprocal directions. A child that passes is tested
- * again when its turn comes, then against each ray. In leaves the lanes are rays. */
-
-#define RT_GROUPS (RT_PACKET / RT_LANES)
-
-typedef struct packet {
-    rays r[RT_GROUPS];
-    hits h[RT_GROUPS];
-} packet;
-
-#if RT_SPHERES
-INLINE int offer_spheres(packet *p, int groups, __global const rt_sphere *spheres,
-                         __global const int *order, int first, int count)
-{
-    int changed = 0;
-    for (int i = first; i < first + count; ++i) {
-        const rt_sphere sphere = spheres[i];
-        for (int g = 0; g < RT_GROUPS; ++g)
-            if (groups >> g & 1)
-                changed |= hit_sphere(&p->r[g], &p->h[g], sphere, order[i], i);
-    }
-    return changed;
-}
-#endif
-
-#if RT_TRIANGLES
-INLINE int offer_triangles(packet *p, int groups, __global const rt_triangle *triangles,
-                           __global const int *order, int sphere_count, int first, int count)
-{
-    int changed = 0;
-    for (int i = first; i < first + count; ++i) {
-        const rt_triangle triangle = triangles[i];
-        for (int g = 0; g < RT_GROUPS; ++g)
-            if (groups >> g & 1)
-                changed |= hit_triangle(&p->r[g], &p->h[g], triangle, order[sphere_count + i], i);
-    }
-    return changed;
-}
-#endif
+ * Rays that go together walk as a packet. At a node the lanes are its children: one interval test
+ * holds all 16 boxes against what all rays of the packet have in common, the least and the greatest
+ * of their origins and reciprocal directions. A child that passes is tested again when its turn
+ * comes, then against each ray. In leaves the lanes are rays. Rays that go apart walk one by one:
+ * there the lanes are a node's children or a leaf's primitives all the way. */
 
 #if !RT_TREE
-INLINE void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
-                         __global const rt_sphere *spheres, int sphere_count,
-                         __global const rt_triangle *triangles, int triangle_count)
+INLINE void walk(packet *p, const world *w, const int any)
 {
 #if RT_SPHERES
-    offer_spheres(p, -1, spheres, order, 0, sphere_count);
+    for (int block = 0; block < w->sphere_blocks; ++block)
+        offer_spheres(p, -1, w, block, any);
 #endif
 #if RT_TRIANGLES
-    offer_triangles(p, -1, triangles, order, sphere_count, 0, triangle_count);
+    for (int block = 0; block < w->triangle_blocks; ++block)
+        offer_triangles(p, -1, w, block, any);
 #endif
 }
 #else
@@ -105,13 +70,8 @@ INLINE float most16(float16 v)
 #define MOST(v) RT_PASTE(most, RT_LANES)(v)
 #endif
 
-/* Lanes whose rays can still hit anything: a dead ray must not widen the bundle. */
-INLINE mask alive(const rays *r, const hits *h)
-{
-    return MASK(h->t > r->tmin);
-}
-
-/* One axis of the bundle from the groups' origins and inverses; dead lanes are passed over. */
+/* One axis of the bundle from the groups' origins and inverses. Dead lanes are passed over: they
+ * would widen it. */
 #define BUNDLE_AXIS(p, axis, out)                                                                  \
     do {                                                                                           \
         real low_o = (real)FLT_MAX, high_o = (real)-FLT_MAX;                                       \
@@ -168,12 +128,15 @@ INLINE void narrow(const bundle_axis *a, __global const float *lo, __global cons
     *leave = select(*leave, far, far < *leave);
 }
 
-/* The lanes of a 16-lane mask as bits, lane 0 lowest. */
+/* The lanes of a mask as bits, lane 0 lowest. Bytes of ones and zeros: each keeps the bit of its
+ * place, and a multiplication adds the eight up in the top byte. Little-endian, as every OpenCL
+ * device there is. */
 INLINE int bits_of(int16 m)
 {
-    const int16 weights = {1,   2,   4,    8,    16,   32,   64,    128,
-                           256, 512, 1024, 2048, 4096, 8192, 16384, 32768};
-    return lanes_or16(m & weights);
+    const ulong2 v = as_ulong2(convert_char16(m));
+    const ulong x = (v.x & 0x8040201008040201UL) * 0x0101010101010101UL;
+    const ulong y = (v.y & 0x8040201008040201UL) * 0x0101010101010101UL;
+    return (int)(x >> 56) | (int)(y >> 48 & 0xff00);
 }
 
 /* Groups of which some ray meets the box of a node's child in time. */
@@ -183,8 +146,8 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
     for (int g = 0; g < RT_GROUPS; ++g) {
         real enter, leave;
         const rays *r = &p->r[g];
-        box_interval(r, n->lo_x[c], n->hi_x[c], n->lo_y[c], n->hi_y[c], n->lo_z[c], n->hi_z[c],
-                     &enter, &leave);
+        box_interval(r, (real)n->lo_x[c], (real)n->hi_x[c], (real)n->lo_y[c], (real)n->hi_y[c],
+                     (real)n->lo_z[c], (real)n->hi_z[c], &enter, &leave);
         const mask on = alive(r, &p->h[g]) & MASK(enter <= leave) & MASK(leave >= r->tmin) &
                         MASK(enter <= p->h[g].t);
         groups |= ANY(on) ? 1 << g : 0;
@@ -192,74 +155,253 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
     return groups;
 }
 
-INLINE void closest_hits(packet *p, __global const rt_node *nodes, __global const int *order,
-                         __global const rt_sphere *spheres, int sphere_count,
-                         __global const rt_triangle *triangles, int triangle_count)
+#define LOWEST_BIT(bits) ((int)popcount(((bits) & -(bits)) - 1))
+
+/* Puts the children that a node's test has left onto the stack, the nearest on top. */
+INLINE int push_children(int16 meets, float16 enter, int code, int *codes, float *enters, int top)
 {
-    int node_of[RT_STACK]; /* parent * RT_WIDTH + child */
-    float enter_of[RT_STACK];
+    float nearest[RT_WIDTH];
+    vstore16(enter, 0, nearest);
+    const int bottom = top;
+    for (int left = bits_of(meets); left; left &= left - 1) {
+        const int c = LOWEST_BIT(left);
+        int at = top++;
+        for (; at > bottom && enters[at - 1] < nearest[c]; --at) {
+            enters[at] = enters[at - 1];
+            codes[at] = codes[at - 1];
+        }
+        enters[at] = nearest[c];
+        codes[at] = code + c;
+    }
+    return top;
+}
+
+/* The bundle of a packet; its tmin is above its tmax where no ray is alive. */
+INLINE void bundle_up(const packet *p, bundle *b)
+{
+    BUNDLE_AXIS(p, x, &b->x);
+    BUNDLE_AXIS(p, y, &b->y);
+    BUNDLE_AXIS(p, z, &b->z);
+    b->tmin = least_tmin(p);
+    b->tmax = farthest(p);
+}
+
+INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
+{
+    int codes[RT_STACK]; /* parent * RT_WIDTH + child */
+    float enters[RT_STACK];
     int top = 0;
-    bundle b;
-    BUNDLE_AXIS(p, x, &b.x);
-    BUNDLE_AXIS(p, y, &b.y);
-    BUNDLE_AXIS(p, z, &b.z);
-    b.tmin = least_tmin(p);
-    b.tmax = farthest(p);
-    int node = b.tmin <= b.tmax ? 0 : -1;
+    int node = b->tmin <= b->tmax ? 0 : -1;
     while (node >= 0) {
-        __global const rt_node *n = nodes + node;
-        float16 enter = (float16)b.tmin, leave = (float16)b.tmax;
-        narrow(&b.x, n->lo_x, n->hi_x, &enter, &leave);
-        narrow(&b.y, n->lo_y, n->hi_y, &enter, &leave);
-        narrow(&b.z, n->lo_z, n->hi_z, &enter, &leave);
+        __global const rt_node *n = w->nodes + node;
+        float16 enter = (float16)b->tmin, leave = (float16)b->tmax;
+        narrow(&b->x, n->lo_x, n->hi_x, &enter, &leave);
+        narrow(&b->y, n->lo_y, n->hi_y, &enter, &leave);
+        narrow(&b->z, n->lo_z, n->hi_z, &enter, &leave);
         /* The margin of box_interval, and empty boxes out. */
         const int16 meets =
-            enter <= leave * RT_SLAB_MARGIN & vload16(0, n->lo_x) <= vload16(0, n->hi_x);
-        float nearest[RT_WIDTH];
-        vstore16(enter, 0, nearest);
-        const int bottom = top;
-        for (int left = bits_of(meets); left; left &= left - 1) {
-            const int c = popcount((left & -left) - 1);
-            /* Insertion keeps the nearest of these children on top. */
-            int at = top++;
-            for (; at > bottom && enter_of[at - 1] < nearest[c]; --at) {
-                enter_of[at] = enter_of[at - 1];
-                node_of[at] = node_of[at - 1];
-            }
-            enter_of[at] = nearest[c];
-            node_of[at] = node * RT_WIDTH + c;
-        }
+            (enter <= leave * RT_SLAB_MARGIN) & (vload16(0, n->lo_x) <= vload16(0, n->hi_x));
+        top = push_children(meets, enter, node * RT_WIDTH, codes, enters, top);
         node = -1;
         while (top > 0 && node < 0) {
             --top;
-            if (!(enter_of[top] <= b.tmax))
+            if (!(enters[top] <= b->tmax))
                 continue;
-            const int c = node_of[top] % RT_WIDTH;
-            __global const rt_node *parent = nodes + node_of[top] / RT_WIDTH;
+            const int c = codes[top] % RT_WIDTH;
+            __global const rt_node *parent = w->nodes + codes[top] / RT_WIDTH;
             const int groups = groups_in_box(p, parent, c);
             const int child = parent->child[c];
             if (groups == 0)
                 continue;
-            if (child >= 0) {
+            if (child >= 0)
                 node = child;
-                continue;
-            }
-            const int first = child & (RT_LEAF_SLOTS - 1);
-            const int count = (child >> RT_LEAF_COUNT_SHIFT & (RT_LEAF_COUNT_MAX - 1)) + 1;
-            int changed;
-#if RT_SPHERES && RT_TRIANGLES
-            if (child & RT_LEAF_SPHERES)
-                changed = offer_spheres(p, groups, spheres, order, first, count);
-            else
-                changed = offer_triangles(p, groups, triangles, order, sphere_count, first, count);
-#elif RT_SPHERES
-            changed = offer_spheres(p, groups, spheres, order, first, count);
-#else
-            changed = offer_triangles(p, groups, triangles, order, sphere_count, first, count);
-#endif
-            if (changed)
-                b.tmax = farthest(p);
+            else if (offer_block(p, groups, w, child & RT_LEAF_SPHERES,
+                                 child & (RT_LEAF_SPHERES - 1), any))
+                b->tmax = farthest(p);
         }
     }
+}
+
+#if RT_LANES > 1 && (RT_SPHERES || RT_TRIANGLES)
+/* ---- One ray at a time ---- */
+
+/* A block's component in the lanes; lanes beyond the block are zero, or -1 for the order. */
+#if RT_LANES == 4
+#define BLOCK_REAL(p) vload4(0, p)
+#define BLOCK_MASK(p) vload4(0, p)
+#elif RT_LANES == 8
+#define BLOCK_REAL(p) ((float8)(vload4(0, p), (float4)0.0f))
+#define BLOCK_MASK(p) ((int8)(vload4(0, p), (int4)-1))
+#else
+#define BLOCK_REAL(p) ((float16)(vload4(0, p), (float4)0.0f, (float8)0.0f))
+#define BLOCK_MASK(p) ((int16)(vload4(0, p), (int4)-1, (int8)-1))
+#endif
+
+/* Lane k of a vector in memory. */
+#define LANE(v, k) (((float *)&(v))[k])
+#define LANE_OF_MASK(v, k) (((int *)&(v))[k])
+
+/* What a ray has hit so far. */
+typedef struct hit {
+    float t, u, v, det;
+    int index, slot;
+} hit;
+
+/* Takes the best of a block's meetings with one ray, by the rule of take(). */
+INLINE void take_best(hit *h, meeting *m, mask index, int block, const int any)
+{
+    m->on = m->on & MASK(index >= (mask)0) & MASK(m->t <= (real)h->t);
+    if (!ANY(m->on))
+        return;
+    for (int k = 0; k < RT_BLOCK_PRIMITIVES; ++k) {
+        const float t = LANE(m->t, k);
+        const int i = LANE_OF_MASK(index, k);
+        if (!LANE_OF_MASK(m->on, k) || !(t < h->t || (t == h->t && i < h->index)))
+            continue;
+        h->t = any ? -INFINITY : t;
+        h->index = i;
+        h->slot = block * RT_BLOCK_PRIMITIVES + k;
+        h->u = LANE(m->u, k);
+        h->v = LANE(m->v, k);
+        h->det = LANE(m->det, k);
+    }
+}
+
+/* Holds one ray, in all lanes of `r`, against a block. */
+INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int block,
+                       const int any)
+{
+    meeting m;
+#if RT_SPHERES
+#if RT_TRIANGLES
+    if (is_sphere)
+#endif
+    {
+        __global const rt_sphere_block *s = w->spheres + block;
+        const real3 center = {BLOCK_REAL(s->cx), BLOCK_REAL(s->cy), BLOCK_REAL(s->cz)};
+        if (meet_spheres(r, center, BLOCK_REAL(s->radius), &m))
+            take_best(h, &m, BLOCK_MASK(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
+        return;
+    }
+#endif
+#if RT_TRIANGLES
+    __global const rt_triangle_block *t = w->triangles + block;
+    const real3 a = {BLOCK_REAL(t->ax), BLOCK_REAL(t->ay), BLOCK_REAL(t->az)};
+    const real3 b = {BLOCK_REAL(t->bx), BLOCK_REAL(t->by), BLOCK_REAL(t->bz)};
+    const real3 c = {BLOCK_REAL(t->cx), BLOCK_REAL(t->cy), BLOCK_REAL(t->cz)};
+    __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
+    if (meet_triangles(r, a, b, c, &m))
+        take_best(h, &m, BLOCK_MASK(order), block, any);
+#endif
+}
+
+/* Narrows [enter, leave] of 16 boxes by one axis of one ray, as box_interval does. */
+INLINE void narrow_one(float origin, float inverse, __global const float *lo,
+                       __global const float *hi, float16 *enter, float16 *leave)
+{
+    const float16 near = (vload16(0, inverse < 0.0f ? hi : lo) - origin) * inverse;
+    const float16 far = (vload16(0, inverse < 0.0f ? lo : hi) - origin) * inverse;
+    *enter = GREATER_N(near, *enter);
+    *leave = LESSER_N(far, *leave);
+}
+
+/* A child that is a node is where the walk goes on; a leaf is dealt with, and -1 returned. */
+INLINE int follow(const rays *r, hit *h, const world *w, int child, const int any)
+{
+    if (child >= 0)
+        return child;
+    meet_block(r, h, w, child & RT_LEAF_SPHERES, child & (RT_LEAF_SPHERES - 1), any);
+    return -1;
+}
+
+INLINE void walk_one(const rays *r, float tmin, hit *h, const world *w, const int any)
+{
+    int children[RT_STACK];
+    float enters[RT_STACK];
+    int top = 0, node = 0;
+    const float ox = LANE(r->origin.x, 0), oy = LANE(r->origin.y, 0), oz = LANE(r->origin.z, 0);
+    const float ix = LANE(r->inverse.x, 0), iy = LANE(r->inverse.y, 0), iz = LANE(r->inverse.z, 0);
+    while (node >= 0) {
+        __global const rt_node *n = w->nodes + node;
+        float16 enter = (float16)tmin, leave = (float16)h->t;
+        narrow_one(ox, ix, n->lo_x, n->hi_x, &enter, &leave);
+        narrow_one(oy, iy, n->lo_y, n->hi_y, &enter, &leave);
+        narrow_one(oz, iz, n->lo_z, n->hi_z, &enter, &leave);
+        int left = bits_of(enter <= leave * RT_SLAB_MARGIN);
+        node = -1;
+        if (left) {
+            /* The nearest child is followed, the others wait: sorting them costs more than it
+             * saves. */
+            float nearest[RT_WIDTH];
+            vstore16(enter, 0, nearest);
+            int c = LOWEST_BIT(left);
+            float e = nearest[c];
+            for (left &= left - 1; left; left &= left - 1) {
+                const int other = LOWEST_BIT(left);
+                const float o = nearest[other];
+                const int is_nearer = o < e;
+                enters[top] = is_nearer ? e : o;
+                children[top++] = n->child[is_nearer ? c : other];
+                c = is_nearer ? other : c;
+                e = is_nearer ? o : e;
+            }
+            node = follow(r, h, w, n->child[c], any);
+        }
+        while (top > 0 && node < 0) {
+            --top;
+            if (enters[top] <= h->t)
+                node = follow(r, h, w, children[top], any);
+        }
+    }
+}
+
+/* Lane k of a group's rays in all lanes. */
+INLINE void spread_ray(const rays *from, int k, rays *r)
+{
+    r->origin = SPLAT3(LANE(from->origin.x, k), LANE(from->origin.y, k), LANE(from->origin.z, k));
+    r->direction =
+        SPLAT3(LANE(from->direction.x, k), LANE(from->direction.y, k), LANE(from->direction.z, k));
+    r->inverse =
+        SPLAT3(LANE(from->inverse.x, k), LANE(from->inverse.y, k), LANE(from->inverse.z, k));
+    r->tmin = (real)LANE(from->tmin, k);
+    r->dd = (real)LANE(from->dd, k);
+    r->inv_dd = (real)LANE(from->inv_dd, k);
+}
+
+INLINE void walk_rays(packet *p, const world *w, const int any)
+{
+    for (int i = 0; i < RT_PACKET; ++i) {
+        rays *from = &p->r[i / RT_LANES];
+        hits *to = &p->h[i / RT_LANES];
+        const int k = i % RT_LANES;
+        hit h = {LANE(to->t, k), 0.0f, 0.0f, 1.0f, RT_MISS, RT_MISS};
+        const float tmin = LANE(from->tmin, k);
+        if (!(h.t > tmin))
+            continue;
+        rays r;
+        spread_ray(from, k, &r);
+        walk_one(&r, tmin, &h, w, any);
+        LANE(to->t, k) = h.t;
+        LANE(to->u, k) = h.u;
+        LANE(to->v, k) = h.v;
+        LANE(to->det, k) = h.det;
+        LANE_OF_MASK(to->index, k) = h.index;
+        LANE_OF_MASK(to->slot, k) = h.slot;
+    }
+}
+#endif
+
+/* Rays go together where at most one axis has them go both ways. */
+INLINE void walk(packet *p, const world *w, const int any)
+{
+    bundle b;
+    bundle_up(p, &b);
+#if RT_LANES > 1 && (RT_SPHERES || RT_TRIANGLES)
+    if (b.x.mixed + b.y.mixed + b.z.mixed > 1) {
+        walk_rays(p, w, any);
+        return;
+    }
+#endif
+    walk_packet(p, &b, w, any);
 }
 #endif

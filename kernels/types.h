@@ -10,7 +10,7 @@
 
 /* Within a block, rays go through its four quadrants of 4x4: a vector of 16 is then as compact as
  * can be. Column and row of the block's ray i. */
-#define RT_BLOCK_COLUMN(i) (((i) & 3) | ((i) >> 2 & 4))
+#define RT_BLOCK_COLUMN(i) (((i)&3) | ((i) >> 2 & 4))
 #define RT_BLOCK_ROW(i) (((i) >> 2 & 3) | ((i) >> 3 & 4))
 
 /* Components of a ray array: component c of ray i lies at [c * stride + i]. */
@@ -45,15 +45,27 @@ typedef struct rt_triangle {
     float ax, ay, az, bx, by, bz, cx, cy, cz;
 } rt_triangle;
 
+/* Primitives go to the device in blocks of four, component by component, so that one ray can be
+ * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is
+ * place k of block i. A place that is not filled has zeros, which nothing hits. */
+#define RT_BLOCK_PRIMITIVES 4
+
+typedef struct rt_sphere_block {
+    float cx[RT_BLOCK_PRIMITIVES], cy[RT_BLOCK_PRIMITIVES], cz[RT_BLOCK_PRIMITIVES];
+    float radius[RT_BLOCK_PRIMITIVES];
+} rt_sphere_block;
+
+typedef struct rt_triangle_block {
+    float ax[RT_BLOCK_PRIMITIVES], ay[RT_BLOCK_PRIMITIVES], az[RT_BLOCK_PRIMITIVES];
+    float bx[RT_BLOCK_PRIMITIVES], by[RT_BLOCK_PRIMITIVES], bz[RT_BLOCK_PRIMITIVES];
+    float cx[RT_BLOCK_PRIMITIVES], cy[RT_BLOCK_PRIMITIVES], cz[RT_BLOCK_PRIMITIVES];
+} rt_triangle_block;
+
 /* A node of the tree: the boxes of up to 16 children side by side, empty ones with lo > hi. A child
- * is the index of a node, or a leaf: RT_LEAF, RT_LEAF_SPHERES for spheres, the count less one, and
- * the first slot. Slots number the primitives of a kind in the order of the leaves. */
+ * is the index of a node, or a leaf: RT_LEAF, RT_LEAF_SPHERES for spheres, and the block. */
 #define RT_WIDTH 16
 #define RT_LEAF ((int)0x80000000)
 #define RT_LEAF_SPHERES 0x40000000
-#define RT_LEAF_COUNT_SHIFT 27
-#define RT_LEAF_COUNT_MAX 8
-#define RT_LEAF_SLOTS (1 << RT_LEAF_COUNT_SHIFT)
 
 typedef struct rt_node {
     float lo_x[RT_WIDTH], hi_x[RT_WIDTH];

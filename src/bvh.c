@@ -8,7 +8,7 @@
 #include "array.h"
 #include "parallel.h"
 
-#define LEAF_TARGET 4 /* primitives at which a range is split no further */
+#define LEAF_TARGET RT_BLOCK_PRIMITIVES /* primitives at which a range is split no further */
 /* Primitives below which a range is expected to fit into one node. */
 #define NODE_PRIMITIVES ((size_t)RT_WIDTH * (LEAF_TARGET - 1))
 #define BINS_MAX 16
@@ -29,7 +29,7 @@ typedef struct reference {
     float lo[3];
     uint32_t primitive;
     float hi[3];
-    uint32_t padding;
+    uint32_t begins_leaf; /* set when the tree is done */
 } reference;
 
 /* References that one subtree is made of. */
@@ -159,7 +159,7 @@ static void fill_chunk(void *context, size_t chunk)
     for (size_t i = chunk * CHUNK; i < end; ++i) {
         reference *r = &b->references[i];
         r->primitive = (uint32_t)i;
-        r->padding = 0;
+        r->begins_leaf = 0;
         if (i < scene->sphere_count)
             rt_sphere_box(&scene->spheres[i], r->lo, r->hi);
         else
@@ -327,12 +327,11 @@ static bool is_leaf(const builder *b, const range *r)
     return r->end - r->begin <= LEAF_TARGET && !is_mixed(b, r);
 }
 
-/* The code of a leaf, with the position among the references in the place of the slot. */
+/* The code of a leaf, with the position among the references in the place of the block. */
 static int32_t leaf_code(const builder *b, const range *r)
 {
     const uint32_t kind = is_sphere(b, &b->references[r->begin]) ? RT_LEAF_SPHERES : 0U;
-    const uint32_t count = (uint32_t)(r->end - r->begin - 1) << RT_LEAF_COUNT_SHIFT;
-    return (int32_t)((uint32_t)RT_LEAF | kind | count | (uint32_t)r->begin);
+    return (int32_t)((uint32_t)RT_LEAF | kind | (uint32_t)r->begin);
 }
 
 static void clear_node(rt_node *node)
@@ -355,9 +354,9 @@ static void set_child(rt_node *node, int i, const box *bounds, int32_t child)
     node->child[i] = child;
 }
 
-/* Opens the range of the largest area again and again, until there are RT_WIDTH or none is left that
- * is worth it. One that fits into a single node of full leaves stays whole, unless it is all there
- * is: opened, it would leave nodes below half empty. */
+/* Opens the range of the largest area again and again, until there are RT_WIDTH or none is left
+ * that is worth it. One that fits into a single node of full leaves stays whole, unless it is all
+ * there is: opened, it would leave nodes below half empty. */
 static int open_ranges(builder *b, range children[RT_WIDTH])
 {
     int count = 1;
@@ -472,50 +471,152 @@ static bool join_subtrees(builder *b, rt_bvh *bvh)
     return true;
 }
 
-/* Replaces positions among the references by slots, which count each kind on its own. */
-static bool number_slots(builder *b, rt_bvh *bvh)
+static bool is_filled(const rt_node *node, int child)
 {
-    uint32_t *slots = malloc((b->count + 1) * sizeof *slots);
-    if (!slots)
+    return node->lo_x[child] <= node->hi_x[child];
+}
+
+/* Marks the references at which a leaf begins, and counts the leaves of each kind. */
+static void mark_leaves(builder *b, rt_bvh *bvh)
+{
+    for (size_t n = 0; n < bvh->node_count; ++n)
+        for (int c = 0; c < RT_WIDTH; ++c) {
+            const int32_t child = bvh->nodes[n].child[c];
+            if (child >= 0 || !is_filled(&bvh->nodes[n], c))
+                continue;
+            b->references[(uint32_t)child & (RT_LEAF_SPHERES - 1U)].begins_leaf = 1;
+            ++*(child & RT_LEAF_SPHERES ? &bvh->blocks.sphere_blocks
+                                        : &bvh->blocks.triangle_blocks);
+        }
+}
+
+/* Gives each leaf a block of its kind in the order of the references, and the leaf's code that
+ * block in the place of the position. */
+static bool number_blocks(builder *b, rt_bvh *bvh)
+{
+    uint32_t *block_at = malloc((b->count + 1) * sizeof *block_at);
+    if (!block_at)
         return false;
-    uint32_t next[2] = {0, 0};
+    uint32_t next[2] = {0, 0}, place = 0;
+    const size_t triangle_slots = bvh->blocks.sphere_blocks * RT_BLOCK_PRIMITIVES;
     for (size_t i = 0; i < b->count; ++i) {
         const reference *r = &b->references[i];
         const bool sphere = is_sphere(b, r);
-        slots[i] = next[sphere]++;
-        bvh->order[slots[i] + (sphere ? 0 : bvh->sphere_count)] = (int32_t)r->primitive;
+        if (r->begins_leaf) {
+            block_at[i] = next[sphere]++;
+            place = 0;
+        }
+        const size_t slot = (size_t)(next[sphere] - 1) * RT_BLOCK_PRIMITIVES + place++;
+        bvh->blocks.order[slot + (sphere ? 0 : triangle_slots)] = (int32_t)r->primitive;
     }
     for (size_t n = 0; n < bvh->node_count; ++n)
         for (int c = 0; c < RT_WIDTH; ++c) {
             int32_t *child = &bvh->nodes[n].child[c];
-            const uint32_t position = (uint32_t)*child & (RT_LEAF_SLOTS - 1);
-            if (*child < 0 && bvh->nodes[n].lo_x[c] <= bvh->nodes[n].hi_x[c])
-                *child = (int32_t)(((uint32_t)*child & ~(uint32_t)(RT_LEAF_SLOTS - 1)) |
-                                   slots[position]);
+            const uint32_t position = (uint32_t)*child & (RT_LEAF_SPHERES - 1U);
+            if (*child < 0 && is_filled(&bvh->nodes[n], c))
+                *child =
+                    (int32_t)(((uint32_t)*child & ~(RT_LEAF_SPHERES - 1U)) | block_at[position]);
         }
-    free(slots);
+    free(block_at);
+    return true;
+}
+
+/* Memory for the counted blocks, all places unfilled. */
+static bool make_blocks(rt_blocks *blocks)
+{
+    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    blocks->spheres = calloc(blocks->sphere_blocks + 1, sizeof *blocks->spheres);
+    blocks->triangles = calloc(blocks->triangle_blocks + 1, sizeof *blocks->triangles);
+    blocks->order = malloc((slots + 1) * sizeof *blocks->order);
+    if (!blocks->spheres || !blocks->triangles || !blocks->order)
+        return false;
+    memset(blocks->order, 0xff, (slots + 1) * sizeof *blocks->order); /* -1 */
     return true;
 }
 
 typedef struct gathering {
     const rt_scene *scene;
-    rt_bvh *bvh;
+    rt_blocks *blocks;
 } gathering;
+
+static void gather_sphere(rt_sphere_block *block, size_t place, const rt_sphere *sphere)
+{
+    block->cx[place] = sphere->cx;
+    block->cy[place] = sphere->cy;
+    block->cz[place] = sphere->cz;
+    block->radius[place] = sphere->radius;
+}
+
+static void gather_triangle(rt_triangle_block *block, size_t place, const rt_triangle *triangle)
+{
+    block->ax[place] = triangle->ax;
+    block->ay[place] = triangle->ay;
+    block->az[place] = triangle->az;
+    block->bx[place] = triangle->bx;
+    block->by[place] = triangle->by;
+    block->bz[place] = triangle->bz;
+    block->cx[place] = triangle->cx;
+    block->cy[place] = triangle->cy;
+    block->cz[place] = triangle->cz;
+}
 
 static void gather_chunk(void *context, size_t chunk)
 {
     const gathering *g = context;
-    rt_bvh *bvh = g->bvh;
-    const size_t count = bvh->sphere_count + bvh->triangle_count;
-    const size_t end = (chunk + 1) * CHUNK < count ? (chunk + 1) * CHUNK : count;
+    rt_blocks *blocks = g->blocks;
+    const size_t sphere_slots = blocks->sphere_blocks * RT_BLOCK_PRIMITIVES;
+    const size_t slots = sphere_slots + blocks->triangle_blocks * RT_BLOCK_PRIMITIVES;
+    const size_t end = (chunk + 1) * CHUNK < slots ? (chunk + 1) * CHUNK : slots;
     for (size_t i = chunk * CHUNK; i < end; ++i) {
-        const size_t primitive = (size_t)bvh->order[i];
-        if (i < bvh->sphere_count)
-            bvh->spheres[i] = g->scene->spheres[primitive];
+        const int32_t primitive = blocks->order[i];
+        const size_t slot = i < sphere_slots ? i : i - sphere_slots;
+        const size_t block = slot / RT_BLOCK_PRIMITIVES, place = slot % RT_BLOCK_PRIMITIVES;
+        if (primitive < 0)
+            continue;
+        if (i < sphere_slots)
+            gather_sphere(&blocks->spheres[block], place, &g->scene->spheres[primitive]);
         else
-            bvh->triangles[i - bvh->sphere_count] =
-                g->scene->triangles[primitive - bvh->sphere_count];
+            gather_triangle(&blocks->triangles[block], place,
+                            &g->scene->triangles[(size_t)primitive - g->scene->sphere_count]);
     }
+}
+
+/* Copies the primitives to where the order has them. */
+static void gather(rt_blocks *blocks, const rt_scene *scene, int threads)
+{
+    gathering g = {scene, blocks};
+    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    rt_parallel((slots + CHUNK - 1) / CHUNK, threads, gather_chunk, &g);
+}
+
+static size_t blocks_for(size_t primitives)
+{
+    return (primitives + RT_BLOCK_PRIMITIVES - 1) / RT_BLOCK_PRIMITIVES;
+}
+
+bool rt_blocks_in_order(rt_blocks *blocks, const rt_scene *scene, rt_status *status)
+{
+    *blocks = (rt_blocks){.sphere_blocks = blocks_for(scene->sphere_count),
+                          .triangle_blocks = blocks_for(scene->triangle_count)};
+    if (!make_blocks(blocks)) {
+        rt_blocks_clear(blocks);
+        return rt_status_no_memory(status, "the scene");
+    }
+    for (size_t i = 0; i < scene->sphere_count; ++i)
+        blocks->order[i] = (int32_t)i;
+    for (size_t i = 0; i < scene->triangle_count; ++i)
+        blocks->order[blocks->sphere_blocks * RT_BLOCK_PRIMITIVES + i] =
+            (int32_t)(scene->sphere_count + i);
+    gather(blocks, scene, 1);
+    return true;
+}
+
+void rt_blocks_clear(rt_blocks *blocks)
+{
+    free(blocks->spheres);
+    free(blocks->triangles);
+    free(blocks->order);
+    *blocks = (rt_blocks){0};
 }
 
 /* Entries below a node at most: its own children less the one that is followed, and so on down. */
@@ -524,7 +625,7 @@ static size_t stack_need(const rt_bvh *bvh, int32_t node)
     size_t children = 0, deepest = 0;
     for (int c = 0; c < RT_WIDTH; ++c) {
         const rt_node *n = &bvh->nodes[node];
-        if (!(n->lo_x[c] <= n->hi_x[c]))
+        if (!is_filled(n, c))
             continue;
         ++children;
         if (n->child[c] >= 0) {
@@ -541,28 +642,26 @@ static bool build(builder *b, rt_bvh *bvh, const rt_scene *scene)
     rt_parallel(chunks, b->threads, fill_chunk, b);
     build_tops(b);
     rt_parallel(b->top_count, b->threads, build_subtree, b);
-    if (!join_subtrees(b, bvh) || !number_slots(b, bvh))
+    if (!join_subtrees(b, bvh))
         return false;
-    gathering g = {scene, bvh};
-    rt_parallel(chunks, b->threads, gather_chunk, &g);
+    mark_leaves(b, bvh);
+    if (!make_blocks(&bvh->blocks) || !number_blocks(b, bvh))
+        return false;
+    gather(&bvh->blocks, scene, b->threads);
     bvh->stack_size = stack_need(bvh, 0);
     return true;
 }
 
 bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *status)
 {
-    *bvh = (rt_bvh){.sphere_count = scene->sphere_count, .triangle_count = scene->triangle_count};
+    *bvh = (rt_bvh){0};
     builder b = {
         .scene = scene, .count = scene->sphere_count + scene->triangle_count, .threads = threads};
-    if (b.count > RT_LEAF_SLOTS)
+    if (b.count >= RT_LEAF_SPHERES)
         return rt_status_fail(status, RT_ERROR_SCENE, "rt: %zu primitives; the tree takes %d",
-                              b.count, RT_LEAF_SLOTS);
+                              b.count, RT_LEAF_SPHERES - 1);
     b.references = malloc((b.count + 1) * sizeof *b.references);
-    bvh->order = malloc((b.count + 1) * sizeof *bvh->order);
-    bvh->spheres = malloc((bvh->sphere_count + 1) * sizeof *bvh->spheres);
-    bvh->triangles = malloc((bvh->triangle_count + 1) * sizeof *bvh->triangles);
-    const bool good =
-        b.references && bvh->order && bvh->spheres && bvh->triangles && build(&b, bvh, scene);
+    const bool good = b.references && build(&b, bvh, scene);
     for (size_t i = 0; i < RT_WIDTH; ++i)
         free(b.subtrees[i].nodes);
     free(b.references);
@@ -575,8 +674,6 @@ bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *st
 void rt_bvh_clear(rt_bvh *bvh)
 {
     free(bvh->nodes);
-    free(bvh->order);
-    free(bvh->spheres);
-    free(bvh->triangles);
+    rt_blocks_clear(&bvh->blocks);
     *bvh = (rt_bvh){0};
 }

@@ -13,18 +13,29 @@
 #include "scene.h"
 #include "status.h"
 
+/* Primitives in the blocks of kernels/types.h. */
+typedef struct rt_blocks {
+    rt_sphere_block *spheres;     /* owned */
+    rt_triangle_block *triangles; /* owned */
+    int32_t *order; /* owned: the primitive of each slot, spheres' slots and then triangles'; -1 for
+                       a place that is not filled */
+    size_t sphere_blocks, triangle_blocks;
+} rt_blocks;
+
 typedef struct rt_bvh {
     rt_node *nodes; /* owned; nodes[0] is the root, also where there is no primitive */
     size_t node_count;
-    int32_t *order; /* owned: the primitive index of each slot; spheres' slots, then triangles' */
-    size_t sphere_count, triangle_count;
-    rt_sphere *spheres;     /* owned: in slot order */
-    rt_triangle *triangles; /* owned: in slot order */
-    size_t stack_size;      /* entries that a depth-first walk needs at most */
+    rt_blocks blocks;  /* one a leaf */
+    size_t stack_size; /* entries that a depth-first walk needs at most */
 } rt_bvh;
 
+/* The scene's primitives in blocks in their own order, for a walk without a tree. On failure
+ * nothing is owned. */
+bool rt_blocks_in_order(rt_blocks *blocks, const rt_scene *scene, rt_status *status);
+void rt_blocks_clear(rt_blocks *blocks);
+
 /* Builds on `threads` threads; the tree does not depend on their number. On failure (memory, or
- * more than RT_LEAF_SLOTS primitives of a kind) nothing is owned. */
+ * more primitives than leaves can name) nothing is owned. */
 bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *status);
 void rt_bvh_clear(rt_bvh *bvh);
 

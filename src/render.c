@@ -40,6 +40,7 @@ struct rt_renderer {
     tile_buffers tile;
     cl_int stride; /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
     int tile_side, lanes, packet;
+    cl_int sphere_blocks, triangle_blocks;
     int width, height;
     bool with_hits;
     float *staging; /* owned: stride values, for rt_renderer_trace */
@@ -50,9 +51,9 @@ struct rt_renderer {
 static const struct {
     const char *name, *kernel;
 } stages[RT_STAGE_COUNT] = {
-    [RT_STAGE_CAMERA] = {"camera", "rt_camera"},   [RT_STAGE_TRACE] = {"trace", "rt_trace"},
-    [RT_STAGE_SHADE] = {"shade", "rt_shade"},      [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve"},
-    [RT_STAGE_HITS] = {"hits", "rt_resolve_hits"},
+    [RT_STAGE_CAMERA] = {"camera", "rt_camera"},    [RT_STAGE_TRACE] = {"trace", "rt_trace"},
+    [RT_STAGE_SHADE] = {"shade", "rt_shade"},       [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve"},
+    [RT_STAGE_OCCLUDE] = {"occlude", "rt_occlude"}, [RT_STAGE_HITS] = {"hits", "rt_resolve_hits"},
 };
 
 const char *rt_stage_name(enum rt_stage stage)
@@ -117,26 +118,27 @@ static bool upload_material_indices(rt_renderer *r, const rt_scene *scene, rt_st
                   status));
 }
 
-/* The arrays that the trace stage works on. Without a tree slots are primitive indices. */
+/* The arrays that the trace stage works on. */
 static bool upload_geometry(rt_renderer *r, const rt_scene *scene, const rt_bvh *bvh,
                             rt_status *status)
 {
     scene_buffers *b = &r->scene;
-    const size_t count = scene->sphere_count + scene->triangle_count;
-    int32_t *identity = NULL;
-    if (!bvh && !(identity = malloc((count + 1) * sizeof *identity)))
-        return rt_status_no_memory(status, "the scene");
-    for (size_t i = 0; !bvh && i < count; ++i)
-        identity[i] = (int32_t)i;
+    rt_blocks in_order = {0};
+    if (!bvh && !rt_blocks_in_order(&in_order, scene, status))
+        return false;
+    const rt_blocks *blocks = bvh ? &bvh->blocks : &in_order;
+    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    r->sphere_blocks = (cl_int)blocks->sphere_blocks;
+    r->triangle_blocks = (cl_int)blocks->triangle_blocks;
     const bool good =
         upload(r, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
                &b->nodes, status) &&
-        upload(r, bvh ? bvh->order : identity, count * sizeof *identity, &b->order, status) &&
-        upload(r, bvh ? bvh->spheres : scene->spheres, scene->sphere_count * sizeof *scene->spheres,
-               &b->spheres, status) &&
-        upload(r, bvh ? bvh->triangles : scene->triangles,
-               scene->triangle_count * sizeof *scene->triangles, &b->triangles, status);
-    free(identity);
+        upload(r, blocks->order, slots * sizeof *blocks->order, &b->order, status) &&
+        upload(r, blocks->spheres, blocks->sphere_blocks * sizeof *blocks->spheres, &b->spheres,
+               status) &&
+        upload(r, blocks->triangles, blocks->triangle_blocks * sizeof *blocks->triangles,
+               &b->triangles, status);
+    rt_blocks_clear(&in_order);
     return good;
 }
 
@@ -209,7 +211,6 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
     const rt_surround surround = {scene->background.x, scene->background.y, scene->background.z,
                                   scene->ambient.x,    scene->ambient.y,    scene->ambient.z};
     const cl_int spheres = (cl_int)scene->sphere_count;
-    const cl_int triangles = (cl_int)scene->triangle_count;
     const cl_int lights = (cl_int)scene->light_count;
     const cl_int stride = r->stride;
     const scene_buffers *s = &r->scene;
@@ -218,8 +219,9 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
                          ARGUMENT(stride), ARGUMENT(t->rays)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_TRACE], status, ARGUMENT(stride), ARGUMENT(t->rays),
                          ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
-                         ARGUMENT(spheres), ARGUMENT(s->triangles), ARGUMENT(triangles),
-                         ARGUMENT(t->hit_index), ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array)) &&
+                         ARGUMENT(r->sphere_blocks), ARGUMENT(s->triangles),
+                         ARGUMENT(r->triangle_blocks), ARGUMENT(t->hit_index),
+                         ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_SHADE], status, ARGUMENT(stride), ARGUMENT(t->rays),
                          ARGUMENT(t->hit_index), ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array),
                          ARGUMENT(s->spheres), ARGUMENT(spheres), ARGUMENT(s->triangles),
@@ -228,6 +230,10 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
                          ARGUMENT(surround), ARGUMENT(t->colors)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_RESOLVE], status, ARGUMENT(tile), ARGUMENT(stride),
                          ARGUMENT(t->colors), ARGUMENT(t->picture)) &&
+           SET_ARGUMENTS(r->kernels[RT_STAGE_OCCLUDE], status, ARGUMENT(stride), ARGUMENT(t->rays),
+                         ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
+                         ARGUMENT(r->sphere_blocks), ARGUMENT(s->triangles),
+                         ARGUMENT(r->triangle_blocks), ARGUMENT(t->hit_index)) &&
            (!r->with_hits ||
             SET_ARGUMENTS(r->kernels[RT_STAGE_HITS], status, ARGUMENT(tile), ARGUMENT(stride),
                           ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(t->records)));
@@ -333,7 +339,8 @@ void rt_renderer_free(rt_renderer *r)
 static bool launch(rt_renderer *r, enum rt_stage stage, size_t rays, cl_event *event,
                    rt_status *status)
 {
-    const size_t rays_per_item = stage == RT_STAGE_TRACE ? (size_t)r->packet : 1;
+    const size_t rays_per_item =
+        stage == RT_STAGE_TRACE || stage == RT_STAGE_OCCLUDE ? (size_t)r->packet : 1;
     const size_t global = rays / rays_per_item;
     const size_t local = RT_BLOCK_RAYS / rays_per_item;
     r->times.launches[stage]++;
@@ -369,7 +376,7 @@ static bool start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, fli
         (hits && !RT_CL(clSetKernelArg(r->kernels[RT_STAGE_HITS], 0, sizeof *tile, tile), status)))
         return false;
     for (int stage = 0; stage < RT_STAGE_COUNT; ++stage)
-        if ((stage != RT_STAGE_HITS || hits) &&
+        if (stage != RT_STAGE_OCCLUDE && (stage != RT_STAGE_HITS || hits) &&
             !launch(r, (enum rt_stage)stage, rays, &f->events[stage], status))
             return false;
     if (!read_tile(r, r->tile.picture, tile, image->rgb, 3 * sizeof *image->rgb,
@@ -446,8 +453,9 @@ static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, si
                  status);
 }
 
-static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
-                       rt_status *status)
+/* Uploads rays and runs a stage over them. */
+static bool trace_stage(rt_renderer *r, enum rt_stage stage, const rt_ray *rays, size_t count,
+                        rt_status *status)
 {
     const size_t padded = (count + RT_BLOCK_RAYS - 1) / RT_BLOCK_RAYS * RT_BLOCK_RAYS;
     for (size_t c = 0; c < RT_RAY_COMPONENTS; ++c)
@@ -455,20 +463,37 @@ static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
             return false;
     flight *f = &r->flights[0];
     f->busy = true;
-    if (!launch(r, RT_STAGE_TRACE, padded, &f->events[RT_STAGE_TRACE], status) ||
-        !finish_tile(r, f, status))
-        return false;
-    if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile.hit_index, CL_TRUE, 0,
-                                   count * sizeof *r->staging, r->staging, 0, NULL, NULL),
-               status))
+    return launch(r, stage, padded, &f->events[stage], status) && finish_tile(r, f, status);
+}
+
+/* Reads `count` values of a buffer, from value `first` on, to r->staging. */
+static bool read_values(rt_renderer *r, cl_mem buffer, size_t first, size_t count,
+                        rt_status *status)
+{
+    const size_t size = sizeof *r->staging;
+    return RT_CL(clEnqueueReadBuffer(r->queue, buffer, CL_TRUE, first * size, count * size,
+                                     r->staging, 0, NULL, NULL),
+                 status);
+}
+
+/* The primitive index that lies in value i of r->staging as bits. */
+static int32_t staged_index(const rt_renderer *r, size_t i)
+{
+    int32_t index;
+    memcpy(&index, &r->staging[i], sizeof index);
+    return index;
+}
+
+static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
+                       rt_status *status)
+{
+    if (!trace_stage(r, RT_STAGE_TRACE, rays, count, status) ||
+        !read_values(r, r->tile.hit_index, 0, count, status))
         return false;
     for (size_t i = 0; i < count; ++i)
-        memcpy(&hits[i].primitive, &r->staging[i], sizeof hits[i].primitive);
+        hits[i].primitive = staged_index(r, i);
     for (size_t c = 0; c < RT_HIT_COMPONENTS; ++c) {
-        if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile.hit_array, CL_TRUE,
-                                       c * (size_t)r->stride * sizeof *r->staging,
-                                       count * sizeof *r->staging, r->staging, 0, NULL, NULL),
-                   status))
+        if (!read_values(r, r->tile.hit_array, c * (size_t)r->stride, count, status))
             return false;
         for (size_t i = 0; i < count; ++i)
             *(c == RT_HIT_T ? &hits[i].t : c == RT_HIT_U ? &hits[i].u : &hits[i].v) = r->staging[i];
@@ -484,6 +509,21 @@ bool rt_renderer_trace(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
         const size_t part = count - done < most ? count - done : most;
         if (!trace_part(r, rays + done, part, hits + done, status))
             return false;
+    }
+    return true;
+}
+
+bool rt_renderer_occluded(rt_renderer *r, const rt_ray *rays, size_t count, uint8_t *occluded,
+                          rt_status *status)
+{
+    const size_t most = (size_t)r->stride;
+    for (size_t done = 0; done < count; done += most) {
+        const size_t part = count - done < most ? count - done : most;
+        if (!trace_stage(r, RT_STAGE_OCCLUDE, rays + done, part, status) ||
+            !read_values(r, r->tile.hit_index, 0, part, status))
+            return false;
+        for (size_t i = 0; i < part; ++i)
+            occluded[done + i] = staged_index(r, i) != RT_MISS;
     }
     return true;
 }

@@ -28,7 +28,8 @@ enum rt_stage {
     RT_STAGE_TRACE,
     RT_STAGE_SHADE,
     RT_STAGE_RESOLVE,
-    RT_STAGE_HITS, /* hit records into rows; only where they are asked for */
+    RT_STAGE_OCCLUDE, /* any hit; only by rt_renderer_occluded */
+    RT_STAGE_HITS,    /* hit records into rows; only where they are asked for */
     RT_STAGE_COUNT
 };
 
@@ -58,6 +59,10 @@ bool rt_renderer_draw(rt_renderer *renderer, rt_image *image, const rt_watch *wa
 /* The nearest hits of `count` rays, through the trace kernel that renders. */
 bool rt_renderer_trace(rt_renderer *renderer, const rt_ray *rays, size_t count, rt_hit *hits,
                        rt_status *status);
+
+/* Whether each of `count` rays hits anything: 1 or 0. */
+bool rt_renderer_occluded(rt_renderer *renderer, const rt_ray *rays, size_t count,
+                          uint8_t *occluded, rt_status *status);
 
 int rt_renderer_lanes(const rt_renderer *renderer);
 const rt_render_times *rt_renderer_times(const rt_renderer *renderer);

@@ -15,7 +15,6 @@
 #include "clock.h"
 
 #define LANES 16
-#define PACKETS_PER_BLOCK (RT_BLOCK_RAYS / LANES)
 /* Rays that a thread takes at a time. */
 #define CHUNK 1024
 #define THREADS_MAX 256
@@ -364,25 +363,17 @@ bool bench_embree_trace(bench_embree *e, const bench_packets *packets, enum benc
     return check(e, "tracing", status);
 }
 
-/* The ray that result `i` of the latest trace belongs to. */
-static size_t place_of(const bench_embree *e, size_t i)
-{
-    const bool is_packets = e->call == BENCH_INTERSECT16 || e->call == BENCH_OCCLUDED16;
-    (void)is_packets;
-    return i;
-}
-
 void bench_embree_hits(const bench_embree *e, rt_hit *hits)
 {
     const results *f = &e->found;
     for (size_t i = 0; i < e->count; ++i)
-        hits[place_of(e, i)] = (rt_hit){f->primitive[i], f->t[i], f->u[i], f->v[i]};
+        hits[i] = (rt_hit){f->primitive[i], f->t[i], f->u[i], f->v[i]};
 }
 
 void bench_embree_is_hit(const bench_embree *e, uint8_t *is_hit)
 {
     const bool is_any = e->call == BENCH_OCCLUDED1 || e->call == BENCH_OCCLUDED16;
     for (size_t i = 0; i < e->count; ++i)
-        is_hit[place_of(e, i)] = is_any ? e->found.occluded[i]
-                                        : e->found.primitive[i] != (int32_t)RTC_INVALID_GEOMETRY_ID;
+        is_hit[i] = is_any ? e->found.occluded[i]
+                           : e->found.primitive[i] != (int32_t)RTC_INVALID_GEOMETRY_ID;
 }

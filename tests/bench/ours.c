@@ -39,17 +39,11 @@ static bool trace_nearest(bench_ours *ours, const bench_rays *rays, uint8_t *is_
     return true;
 }
 
-/* The one place that knows how the renderer answers whether anything is in the way: by the nearest
- * hit, as long as it has no any-hit call. */
-static bool trace_any(bench_ours *ours, const bench_rays *rays, uint8_t *is_hit, rt_status *status)
-{
-    return trace_nearest(ours, rays, is_hit, status);
-}
-
 /* The stages that trace rays. */
 static double kernel_seconds(const bench_ours *ours)
 {
-    return rt_renderer_times(ours->renderer)->stages[RT_STAGE_TRACE];
+    const rt_render_times *times = rt_renderer_times(ours->renderer);
+    return times->stages[RT_STAGE_TRACE] + times->stages[RT_STAGE_OCCLUDE];
 }
 
 bool bench_ours_trace(bench_ours *ours, const bench_rays *rays, bool any_hit, uint8_t *is_hit,
@@ -58,7 +52,8 @@ bool bench_ours_trace(bench_ours *ours, const bench_rays *rays, bool any_hit, ui
     if (rays->count > ours->capacity)
         return rt_status_fail(status, RT_ERROR_USAGE, "bench: too many rays for the hit array");
     const double before = kernel_seconds(ours);
-    if (!(any_hit ? trace_any : trace_nearest)(ours, rays, is_hit, status))
+    if (!(any_hit ? rt_renderer_occluded(ours->renderer, rays->rays, rays->count, is_hit, status)
+                  : trace_nearest(ours, rays, is_hit, status)))
         return false;
     *seconds = kernel_seconds(ours) - before;
     return true;
