@@ -25,7 +25,7 @@ KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl tile.cl interse
 
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
 # No contraction: a multiply-add is fused where the code says fma, and nowhere else.
-override CFLAGS += -std=c11 -ffp-contract=off $(WARNINGS) -MMD -MP
+override CFLAGS += -std=c11 -pthread -ffp-contract=off $(WARNINGS) -MMD -MP
 # Asked only when something is compiled, since `make demo` installs pkg-config first.
 PKG_CFLAGS = $(shell pkg-config --cflags $(LIBRARIES) stb cmocka)
 PKG_LIBS = $(shell pkg-config --libs $(LIBRARIES))
@@ -145,7 +145,7 @@ $(BUILD)/bench/embree.o: BENCH_CFLAGS := -O3 -march=native
 
 $(filter-out %/nothing,$(BENCH_PROGRAMS)): %: %.o $(BENCH_HELPERS) $(LIBRARY)
 	$(call say,LINK)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -pthread -o $@ $^ $(PKG_LIBS) -lembree3 -lm
+	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lembree3 -lm
 
 # Starts and does nothing: it must not load more than it needs.
 $(BUILD)/bench/nothing: $(BUILD)/bench/nothing.o $(LIBRARY)
