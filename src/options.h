@@ -20,6 +20,8 @@ enum rt_action {
 
 enum rt_target { RT_TARGET_DEVICE, RT_TARGET_SCALAR, RT_TARGET_SCALAR_DOUBLE };
 
+enum rt_progress_when { RT_PROGRESS_AUTO, RT_PROGRESS_ALWAYS, RT_PROGRESS_NEVER };
+
 /* All strings are the caller's argv or environment. */
 typedef struct rt_options {
     enum rt_action action;
@@ -27,10 +29,11 @@ typedef struct rt_options {
     const char *output; /* NULL where no picture is asked for; "-" for standard output */
     enum rt_image_format format;
     enum rt_target target;
-    const char *device; /* selector, or NULL for the default */
+    const char *device; /* selectors with commas between them, or NULL for the default */
     const char *hits, *stats;
-    int width, height; /* 0 where the scene decides */
-    int lanes, tile;   /* 0 for the default */
+    int width, height;              /* 0 where the scene decides */
+    int lanes, tile;                /* 0 for the default */
+    enum rt_progress_when progress; /* RT_PROGRESS_NEVER with quiet */
     bool verify, quiet;
 } rt_options;
 
