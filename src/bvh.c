@@ -485,8 +485,10 @@ static void mark_leaves(builder *b, rt_bvh *bvh)
             if (child >= 0 || !is_filled(&bvh->nodes[n], c))
                 continue;
             b->references[(uint32_t)child & (RT_LEAF_SPHERES - 1U)].begins_leaf = 1;
-            ++*(child & RT_LEAF_SPHERES ? &bvh->blocks.sphere_blocks
-                                        : &bvh->blocks.triangle_blocks);
+            if (child & RT_LEAF_SPHERES)
+                bvh->blocks.sphere_blocks++;
+            else
+                bvh->blocks.triangle_blocks++;
         }
 }
 

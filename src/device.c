@@ -184,6 +184,47 @@ const rt_device *rt_device_choose(const rt_device_list *list, const char *select
     return NULL;
 }
 
+static size_t add_once(const rt_device **chosen, size_t count, const rt_device *device)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (chosen[i] == device)
+            return count;
+    chosen[count] = device;
+    return count + 1;
+}
+
+size_t rt_device_choose_list(const rt_device_list *list, const char *selectors,
+                             const rt_device **chosen, rt_status *status)
+{
+    size_t count = 0;
+    if (selectors && strcasecmp(selectors, "all") == 0 && list->count > 0) {
+        for (; count < list->count; ++count)
+            chosen[count] = &list->devices[count];
+        return count;
+    }
+    /* A device's whole name may have a comma of its own. */
+    if (!selectors || !strchr(selectors, ',') || find(list, selectors)) {
+        chosen[0] = rt_device_choose(list, selectors, status);
+        return chosen[0] ? 1 : 0;
+    }
+    for (const char *next = selectors; next;) {
+        next += strspn(next, " ");
+        const char *comma = strchr(next, ',');
+        char *selector = comma ? strndup(next, (size_t)(comma - next)) : strdup(next);
+        if (!selector) {
+            rt_status_no_memory(status, "devices");
+            return 0;
+        }
+        const rt_device *device = rt_device_choose(list, selector, status);
+        free(selector);
+        if (!device)
+            return 0;
+        count = add_once(chosen, count, device);
+        next = comma ? comma + 1 : NULL;
+    }
+    return count;
+}
+
 const char *rt_device_type_name(const rt_device *device)
 {
     if (device->type & CL_DEVICE_TYPE_GPU)

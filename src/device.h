@@ -44,6 +44,12 @@ void rt_device_list_clear(rt_device_list *list);
 const rt_device *rt_device_choose(const rt_device_list *list, const char *selector,
                                   rt_status *status);
 
+/* The devices that a list of selectors names: NULL for the default, "all", or selectors as above
+ * with commas between them. Fills chosen[0..list->count) in the order in which they are named, each
+ * once however often it is named, and returns how many there are; 0 as NULL above. */
+size_t rt_device_choose_list(const rt_device_list *list, const char *selectors,
+                             const rt_device **chosen, rt_status *status);
+
 /* "CPU", "GPU", "accelerator" or "other". */
 const char *rt_device_type_name(const rt_device *device);
 

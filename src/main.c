@@ -1,6 +1,7 @@
 /* From argv to the exit code: reads the scene, renders it, writes what was asked for. */
 #define _GNU_SOURCE
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,14 +16,16 @@
 #include "image.h"
 #include "options.h"
 #include "parallel.h"
-#include "render.h"
+#include "progress.h"
 #include "scalar.h"
 #include "scene.h"
 #include "scene_text.h"
 #include "stats.h"
 #include "status.h"
+#include "team.h"
 
-static volatile sig_atomic_t was_interrupted;
+/* Lock-free, so that a handler may set it, and threads may read it. */
+static atomic_int was_interrupted;
 
 static void on_signal(int signal_number)
 {
@@ -30,29 +33,40 @@ static void on_signal(int signal_number)
     was_interrupted = 1;
 }
 
-static bool keep_going(void *context, double done)
-{
-    (void)context;
-    (void)done;
-    return !was_interrupted;
-}
-
-static const rt_watch watch = {keep_going, NULL};
-
 /* Everything that one run opens, in one place, so that one function lets it go again. */
 typedef struct run {
     rt_options options;
     rt_status status;
     rt_scene scene;
     rt_device_list devices;
-    const rt_device *device; /* NULL on the scalar path */
+    const rt_device **chosen; /* owned: room for all devices; NULL on the scalar path */
+    size_t chosen_count;
     rt_bvh bvh;
-    rt_renderer *renderer;
+    rt_team *team;
+    rt_render_times times;
+    rt_watch watch;
+    rt_progress progress;
     rt_image image;
     rt_output picture, hits, stats_file;
     rt_stats stats;
     double start;
 } run;
+
+/* Called by one thread at a time, as a team promises. */
+static bool keep_going(void *context, double done)
+{
+    run *r = context;
+    rt_progress_tell(&r->progress, done, rt_clock_seconds());
+    return !was_interrupted;
+}
+
+static void begin_progress(run *r)
+{
+    const bool is_terminal = isatty(STDERR_FILENO) != 0;
+    const enum rt_progress_when when = r->options.progress;
+    const bool shown = when == RT_PROGRESS_ALWAYS || (when == RT_PROGRESS_AUTO && is_terminal);
+    rt_progress_begin(&r->progress, shown ? stderr : NULL, is_terminal, rt_clock_seconds());
+}
 
 /* Messages so far, so that they come before what is printed next. */
 static void flush_messages(run *r)
@@ -91,20 +105,21 @@ static bool open_outputs(run *r)
            (!o->stats || rt_output_open(&r->stats_file, o->stats, &r->status));
 }
 
-static bool choose_device(run *r)
+static bool choose_devices(run *r)
 {
     if (r->options.target != RT_TARGET_DEVICE)
         return true;
     if (!rt_device_list_read(&r->devices, &r->status))
         return false;
-    r->device = rt_device_choose(&r->devices, r->options.device, &r->status);
-    if (!r->device)
-        return false;
-    if (!r->options.quiet)
-        fprintf(stderr, "rt: device %d (%d:%d): %s [%s]\n", r->device->index,
-                r->device->platform_index, r->device->device_index, r->device->name,
-                r->device->platform_name);
-    return true;
+    r->chosen = calloc(r->devices.count + 1, sizeof(const rt_device *));
+    if (!r->chosen)
+        return rt_status_no_memory(&r->status, "devices");
+    r->chosen_count = rt_device_choose_list(&r->devices, r->options.device, r->chosen, &r->status);
+    for (size_t i = 0; i < r->chosen_count && !r->options.quiet; ++i)
+        fprintf(stderr, "rt: device %d (%d:%d): %s [%s]\n", r->chosen[i]->index,
+                r->chosen[i]->platform_index, r->chosen[i]->device_index, r->chosen[i]->name,
+                r->chosen[i]->platform_name);
+    return r->chosen_count > 0;
 }
 
 /* Leaves r->bvh empty where every primitive is to be tried. */
@@ -118,30 +133,32 @@ static bool build_tree(run *r)
     return good;
 }
 
-static bool draw_on_device(run *r)
+static bool draw_on_devices(run *r)
 {
     const rt_render_options options = {
         .lanes = r->options.lanes, .tile = r->options.tile, .with_hits = r->image.hits != NULL};
     if (!build_tree(r))
         return false;
-    r->renderer =
-        rt_renderer_new(r->device, &r->scene, r->bvh.nodes ? &r->bvh : NULL, &options, &r->status);
-    if (!r->renderer)
+    r->team = rt_team_new(r->chosen, r->chosen_count, &r->scene, r->bvh.nodes ? &r->bvh : NULL,
+                          &options, &r->status);
+    if (!r->team)
         return false;
     const double start = rt_clock_seconds();
-    if (!rt_renderer_draw(r->renderer, &r->image, &watch, &r->status))
+    begin_progress(r);
+    if (!rt_team_draw(r->team, &r->image, &r->watch, &r->status))
         return false;
-    const rt_render_times *times = rt_renderer_times(r->renderer);
-    r->stats.times = times;
-    r->stats.program = times->program;
-    r->stats.upload = times->upload;
-    r->stats.readback = times->readback;
-    r->stats.kernel = rt_clock_seconds() - start - times->readback;
-    r->stats.primary_rays = times->primary_rays;
-    r->stats.lanes = rt_renderer_lanes(r->renderer);
-    r->stats.device = r->device->name;
-    r->stats.platform = r->device->platform_name;
-    r->stats.driver = r->device->driver;
+    r->times = rt_team_times(r->team);
+    r->stats.team = r->team;
+    r->stats.times = &r->times;
+    r->stats.program = r->times.program;
+    r->stats.upload = r->times.upload;
+    r->stats.readback = r->times.readback;
+    r->stats.kernel = rt_clock_seconds() - start - r->times.readback;
+    r->stats.primary_rays = r->times.primary_rays;
+    r->stats.lanes = rt_team_share_of(r->team, 0).lanes;
+    r->stats.device = r->chosen[0]->name;
+    r->stats.platform = r->chosen[0]->platform_name;
+    r->stats.driver = r->chosen[0]->driver;
     return true;
 }
 
@@ -149,8 +166,9 @@ static bool draw_scalar(run *r)
 {
     const bool is_double = r->options.target == RT_TARGET_SCALAR_DOUBLE;
     const double start = rt_clock_seconds();
+    begin_progress(r);
     if (!(is_double ? rt_scalar_double_render : rt_scalar_float_render)(&r->scene, &r->image,
-                                                                        &watch, &r->status))
+                                                                        &r->watch, &r->status))
         return false;
     r->stats.kernel = rt_clock_seconds() - start;
     r->stats.primary_rays = (size_t)r->image.width * (size_t)r->image.height;
@@ -165,7 +183,9 @@ static bool draw(run *r)
     const bool with_hits = r->options.hits || r->options.verify;
     if (!rt_image_init(&r->image, r->scene.width, r->scene.height, with_hits, &r->status))
         return false;
-    return r->device ? draw_on_device(r) : draw_scalar(r);
+    const bool good = r->chosen ? draw_on_devices(r) : draw_scalar(r);
+    rt_progress_clear(&r->progress);
+    return good;
 }
 
 /* Holds the picture against the scalar path's; false, with code RT_DIFFERENT, where they differ. */
@@ -174,7 +194,10 @@ static bool verify(run *r)
     rt_image expected;
     if (!rt_image_init(&expected, r->image.width, r->image.height, true, &r->status))
         return false;
-    if (!rt_scalar_float_render(&r->scene, &expected, &watch, &r->status)) {
+    begin_progress(r);
+    const bool good = rt_scalar_float_render(&r->scene, &expected, &r->watch, &r->status);
+    rt_progress_clear(&r->progress);
+    if (!good) {
         rt_image_clear(&expected);
         return false;
     }
@@ -241,9 +264,10 @@ static void catch_signals(void)
 static bool render(run *r)
 {
     catch_signals();
+    r->watch = (rt_watch){keep_going, r};
     rt_scene_init(&r->scene);
     /* A picture that differs is still written: it is what there is to look at. */
-    const bool drawn = read_scene(r) && open_outputs(r) && choose_device(r) && draw(r);
+    const bool drawn = read_scene(r) && open_outputs(r) && choose_devices(r) && draw(r);
     if (!drawn)
         return false;
     const bool verified = !r->options.verify || verify(r);
@@ -284,12 +308,13 @@ static bool act(run *r)
 
 static void release(run *r)
 {
-    rt_renderer_free(r->renderer);
+    rt_team_free(r->team);
     rt_bvh_clear(&r->bvh);
     rt_output_discard(&r->picture);
     rt_output_discard(&r->hits);
     rt_output_discard(&r->stats_file);
     rt_image_clear(&r->image);
+    free(r->chosen);
     rt_device_list_clear(&r->devices);
     rt_scene_clear(&r->scene);
     rt_status_clear(&r->status);

@@ -22,6 +22,7 @@ enum {
     OPTION_VERIFY,
     OPTION_STATS,
     OPTION_GRAMMAR,
+    OPTION_PROGRESS,
     OPTION_VERSION
 };
 
@@ -32,6 +33,7 @@ static const struct option long_options[] = {{"accel", required_argument, NULL, 
                                              {"hits", required_argument, NULL, OPTION_HITS},
                                              {"lanes", required_argument, NULL, OPTION_LANES},
                                              {"list-devices", no_argument, NULL, OPTION_LIST},
+                                             {"progress", required_argument, NULL, OPTION_PROGRESS},
                                              {"quiet", no_argument, NULL, OPTION_QUIET},
                                              {"size", required_argument, NULL, OPTION_SIZE},
                                              {"stats", required_argument, NULL, OPTION_STATS},
@@ -52,14 +54,17 @@ void rt_options_help(FILE *out)
           "                       the picture is the same\n"
           "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
           "                       accelerator, any part of a name, scalar (plain C in float) or\n"
-          "                       scalar-double; by default RT_DEVICE, else the first GPU, else\n"
-          "                       the first CPU\n"
+          "                       scalar-double; several with commas between them, or all,\n"
+          "                       share the picture; by default RT_DEVICE, else the first GPU,\n"
+          "                       else the first CPU\n"
           "      --grammar        print the scene format as a table and exit\n"
           "  -h, --help           print this help and exit\n"
           "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
           "      --lanes=N        rays a work-item traces: 1, 4, 8 or 16; by default the device's\n"
           "                       native float width, 1 on a GPU\n"
           "      --list-devices   list the OpenCL devices and exit\n"
+          "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"
+          "                       default: on a terminal), always or never\n"
           "  -q, --quiet          print errors only\n"
           "      --size=WxH       picture size in pixels, whatever the scene says\n"
           "      --stats=FILE     write what was done and how long it took as JSON (- for\n"
@@ -120,6 +125,19 @@ static void read_device(rt_options *options, const char *text)
         options->target = RT_TARGET_SCALAR_DOUBLE;
 }
 
+static bool read_progress(rt_options *options, const char *text, rt_status *status)
+{
+    static const char *const names[] = {[RT_PROGRESS_AUTO] = "auto",
+                                        [RT_PROGRESS_ALWAYS] = "always",
+                                        [RT_PROGRESS_NEVER] = "never"};
+    for (int i = 0; i < 3; ++i)
+        if (strcmp(text, names[i]) == 0) {
+            options->progress = (enum rt_progress_when)i;
+            return true;
+        }
+    return fail(status, "--progress", text, "auto, always or never");
+}
+
 static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
 {
     switch (code) {
@@ -143,6 +161,8 @@ static bool read_option(rt_options *options, int code, const char *value, rt_sta
     case OPTION_STATS:
         options->stats = value;
         return true;
+    case OPTION_PROGRESS:
+        return read_progress(options, value, status);
     case OPTION_VERIFY:
         options->verify = true;
         return true;
@@ -171,6 +191,26 @@ static bool fail_usage(rt_status *status, const char *message, const char *what)
     return rt_status_fail(status, RT_ERROR_USAGE, "rt: %s%s; try 'rt --help'", message, what);
 }
 
+/* A list of devices: no empty place in it, and none that is not a device. */
+static bool check_devices(const char *text, rt_status *status)
+{
+    if (!strchr(text, ','))
+        return true;
+    for (const char *next = text; next;) {
+        next += strspn(next, " ");
+        const size_t length = strcspn(next, ",");
+        if (length == 0)
+            return fail(status, "--device", text, "a name or index on each side of a comma");
+        if ((length == 6 && strncasecmp(next, "scalar", length) == 0) ||
+            (length == 13 && strncasecmp(next, "scalar-double", length) == 0))
+            return fail_usage(status, "the scalar path renders alone, not as in --device ", text);
+        if (length == 3 && strncasecmp(next, "all", length) == 0)
+            return fail_usage(status, "all devices cannot be part of a list: --device ", text);
+        next = next[length] ? next + length + 1 : NULL;
+    }
+    return true;
+}
+
 /* What options mean together. */
 static bool check(rt_options *o, rt_status *status)
 {
@@ -178,6 +218,8 @@ static bool check(rt_options *o, rt_status *status)
         return fail_usage(status, "no scene is given", "");
     if (!o->output && !o->verify && !o->hits && !o->stats)
         return fail_usage(status, "no output is given", "");
+    if (o->quiet)
+        o->progress = RT_PROGRESS_NEVER;
     if (o->output && o->format == RT_IMAGE_UNKNOWN)
         return rt_status_fail(status, RT_ERROR_USAGE,
                               "rt: '%s' does not end in .png, .bmp, .tga, .jpg or .hdr", o->output);
@@ -187,6 +229,8 @@ static bool check(rt_options *o, rt_status *status)
         to_stdout += outputs[i] && strcmp(outputs[i], "-") == 0;
     if (to_stdout > 1 || (to_stdout == 1 && o->verify))
         return fail_usage(status, "only one thing can go to standard output", "");
+    if (o->device && !check_devices(o->device, status))
+        return false;
     if (o->verify && o->target != RT_TARGET_DEVICE)
         return fail_usage(status, "--verify holds a device against the scalar path; choose one",
                           "");

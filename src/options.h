@@ -23,6 +23,8 @@ enum rt_accel { RT_ACCEL_BVH, RT_ACCEL_NONE };
 
 enum rt_target { RT_TARGET_DEVICE, RT_TARGET_SCALAR, RT_TARGET_SCALAR_DOUBLE };
 
+enum rt_progress_when { RT_PROGRESS_AUTO, RT_PROGRESS_ALWAYS, RT_PROGRESS_NEVER };
+
 /* All strings are the caller's argv or environment. */
 typedef struct rt_options {
     enum rt_action action;
@@ -31,10 +33,11 @@ typedef struct rt_options {
     enum rt_image_format format;
     enum rt_target target;
     enum rt_accel accel;
-    const char *device; /* selector, or NULL for the default */
+    const char *device; /* selectors with commas between them, or NULL for the default */
     const char *hits, *stats;
-    int width, height; /* 0 where the scene decides */
-    int lanes, tile;   /* 0 for the default */
+    int width, height;              /* 0 where the scene decides */
+    int lanes, tile;                /* 0 for the default */
+    enum rt_progress_when progress; /* RT_PROGRESS_NEVER with quiet */
     bool verify, quiet;
 } rt_options;
 

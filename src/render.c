@@ -370,6 +370,7 @@ static bool start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, fli
                         (size_t)round_up(tile->height, RT_BLOCK_SIDE);
     const bool hits = image->hits != NULL;
     f->busy = true;
+    r->times.tiles++;
     r->times.primary_rays += (size_t)tile->width * (size_t)tile->height;
     if (!RT_CL(clSetKernelArg(r->kernels[RT_STAGE_CAMERA], 1, sizeof *tile, tile), status) ||
         !RT_CL(clSetKernelArg(r->kernels[RT_STAGE_RESOLVE], 0, sizeof *tile, tile), status) ||
@@ -414,25 +415,34 @@ static bool finish_all(rt_renderer *r, rt_status *status)
     return good;
 }
 
-bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt_status *status)
+bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, const rt_watch *watch,
+                            rt_status *status)
 {
-    const int side = r->tile_side;
-    const int columns = (r->width + side - 1) / side;
-    const int tiles = columns * ((r->height + side - 1) / side);
+    rt_taker taker = {tiles, 0};
     bool good = true;
-    for (int i = 0; good && i < tiles; ++i) {
-        flight *f = &r->flights[i % TILES_IN_FLIGHT];
-        rt_tile tile = {i % columns * side, i / columns * side, side, side};
-        if (tile.width > r->width - tile.x)
-            tile.width = r->width - tile.x;
-        if (tile.height > r->height - tile.y)
-            tile.height = r->height - tile.y;
+    for (int i = 0; good; ++i) {
+        /* Beside others, the second tile waits for what the first one tells of the device's speed.
+         */
+        flight *f = &r->flights[tiles->takers > 1 && i == 1 ? 0 : i % TILES_IN_FLIGHT];
+        const bool landed = f->busy;
+        rt_tile tile;
         good = finish_tile(r, f, status);
-        if (good && !rt_watch_tick(watch, (double)i / tiles))
+        if (good && landed)
+            rt_tiles_finish(&taker);
+        if (!good || !rt_tiles_take(&taker, &tile))
+            break;
+        if (!rt_watch_tick(watch, rt_tiles_done(tiles)))
             good = rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
         good = good && start_tile(r, &tile, image, f, status);
     }
     return finish_all(r, status) && good;
+}
+
+bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt_status *status)
+{
+    rt_tiles tiles;
+    rt_tiles_init(&tiles, r->width, r->height, r->tile_side, 1);
+    return rt_renderer_draw_tiles(r, &tiles, image, watch, status);
 }
 
 /* Component `c` of `count` rays; the rest of the last block ends before it begins. */

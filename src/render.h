@@ -11,6 +11,7 @@
 #include "image.h"
 #include "scalar.h"
 #include "scene.h"
+#include "tiles.h"
 #include "watch.h"
 
 #define RT_TILE_DEFAULT 256
@@ -39,7 +40,7 @@ typedef struct rt_render_times {
     double program, upload, readback;
     double stages[RT_STAGE_COUNT];
     size_t launches[RT_STAGE_COUNT];
-    size_t primary_rays;
+    size_t tiles, primary_rays;
 } rt_render_times;
 
 typedef struct rt_renderer rt_renderer;
@@ -55,6 +56,10 @@ void rt_renderer_free(rt_renderer *renderer);
  * has room for them. Stops with code RT_INTERRUPTED between tiles when the watch says so. */
 bool rt_renderer_draw(rt_renderer *renderer, rt_image *image, const rt_watch *watch,
                       rt_status *status);
+
+/* Renders the tiles that are left, of a side that is the renderer's, until none is. */
+bool rt_renderer_draw_tiles(rt_renderer *renderer, rt_tiles *tiles, rt_image *image,
+                            const rt_watch *watch, rt_status *status);
 
 /* The nearest hits of `count` rays, through the trace kernel that renders. */
 bool rt_renderer_trace(rt_renderer *renderer, const rt_ray *rays, size_t count, rt_hit *hits,

@@ -27,6 +27,19 @@ static json_t *stages_of(const rt_stats *s)
     return stages;
 }
 
+/* What each device has done of the picture. */
+static json_t *devices_of(const rt_stats *s)
+{
+    json_t *devices = json_array();
+    for (size_t i = 0; s->team && i < rt_team_count(s->team); ++i) {
+        const rt_team_share share = rt_team_share_of(s->team, i);
+        json_array_append_new(devices, json_pack("{s:s,s:o,s:o,s:f}", "name", share.device->name,
+                                                 "tiles", count_of(share.tiles), "rays",
+                                                 count_of(share.rays), "seconds", share.seconds));
+    }
+    return devices;
+}
+
 static json_t *effects_of(const rt_stats *s)
 {
     json_t *effects = json_array();
@@ -45,13 +58,13 @@ static json_t *rays_of(const rt_stats *s)
 
 bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
 {
-    json_t *root =
-        json_pack("{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o}", "device",
-                  s->device, "platform", s->platform, "driver", s->driver, "accuracy", s->accuracy,
-                  "lanes", s->lanes, "width", s->width, "height", s->height, "primitives",
-                  "spheres", count_of(s->spheres), "triangles", count_of(s->triangles), "lights",
-                  count_of(s->lights), "materials", count_of(s->materials), "rays", rays_of(s),
-                  "seconds", seconds_of(s), "stages", stages_of(s), "effects", effects_of(s));
+    json_t *root = json_pack(
+        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device",
+        s->device, "platform", s->platform, "driver", s->driver, "accuracy", s->accuracy, "lanes",
+        s->lanes, "width", s->width, "height", s->height, "primitives", "spheres",
+        count_of(s->spheres), "triangles", count_of(s->triangles), "lights", count_of(s->lights),
+        "materials", count_of(s->materials), "rays", rays_of(s), "seconds", seconds_of(s), "stages",
+        stages_of(s), "effects", effects_of(s), "devices", devices_of(s));
     char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(root);
     if (!text)

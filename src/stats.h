@@ -5,10 +5,11 @@
 #include "effects.h"
 #include "file.h"
 #include "render.h"
+#include "team.h"
 
 typedef struct rt_stats {
-    const char *device;   /* name, "scalar" or "scalar-double" */
-    const char *platform; /* empty for the scalar path */
+    const char *device;   /* the first one's name, "scalar" or "scalar-double" */
+    const char *platform; /* the first one's, as driver and lanes; empty for the scalar path */
     const char *driver;
     const char *accuracy;
     int lanes, width, height;
@@ -16,7 +17,8 @@ typedef struct rt_stats {
     size_t primary_rays;
     rt_effects effects;
     double parse, accel, program, upload, kernel, readback, encode, total; /* wall seconds */
-    const rt_render_times *times; /* NULL for the scalar path */
+    const rt_render_times *times; /* of all devices; NULL for the scalar path */
+    const rt_team *team;          /* NULL for the scalar path */
 } rt_stats;
 
 bool rt_stats_write(const rt_stats *stats, rt_output *output, rt_status *status);

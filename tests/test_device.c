@@ -74,6 +74,55 @@ static void selectors(void **state)
     assert_int_equal(chosen(0, NULL), -1);
 }
 
+/* The indices of the chosen devices as text; the message where there are none. */
+static const char *chosen_of(size_t count, const char *selectors)
+{
+    static char text[512];
+    const rt_device_list list = {made_up, count, count};
+    const rt_device *chosen[4];
+    rt_status status = RT_STATUS_INIT;
+    const size_t found = rt_device_choose_list(&list, selectors, chosen, &status);
+    assert_int_equal(status.code, found ? RT_OK : RT_ERROR_DEVICE);
+    snprintf(text, sizeof text, "%s", status.text ? status.text : "");
+    for (size_t i = 0; i < found; ++i)
+        sprintf(text + i, "%d", chosen[i]->index);
+    rt_status_clear(&status);
+    return text;
+}
+
+static void lists_of_selectors(void **state)
+{
+    (void)state;
+    assert_string_equal(chosen_of(4, NULL), "3");
+    assert_string_equal(chosen_of(4, "2"), "2");
+    assert_string_equal(chosen_of(4, "all"), "0123");
+    assert_string_equal(chosen_of(1, "ALL"), "0");
+    assert_string_equal(chosen_of(4, "2,0"), "20");
+    assert_string_equal(chosen_of(4, "gpu,cpu,0:0"), "310");
+    assert_string_equal(chosen_of(4, "gpu, atom"), "32");
+    assert_string_equal(chosen_of(4, "1,1,xeon,1:0,3"), "13"); /* each once */
+    assert_non_null(strstr(chosen_of(4, "0,radeon"), "no device fits 'radeon'"));
+    assert_non_null(strstr(chosen_of(4, "0,4"), "no device fits '4'"));
+    assert_non_null(strstr(chosen_of(0, "all"), "pocl-opencl-icd"));
+    assert_non_null(strstr(chosen_of(0, "0,1"), "pocl-opencl-icd"));
+}
+
+/* llvmpipe's name has one, for instance. */
+static void names_with_commas(void **state)
+{
+    (void)state;
+    rt_device two[2] = {made_up[1], made_up[3]};
+    snprintf(two[0].name, RT_DEVICE_TEXT, "pipe (LLVM 15, 256 bits)");
+    const rt_device_list list = {two, 2, 2};
+    const rt_device *chosen[2];
+    rt_status status = RT_STATUS_INIT;
+    assert_int_equal(rt_device_choose_list(&list, "pipe (LLVM 15, 256 bits)", chosen, &status), 1);
+    assert_ptr_equal(chosen[0], &two[0]);
+    assert_int_equal(rt_device_choose_list(&list, "geforce,pipe", chosen, &status), 2);
+    assert_ptr_equal(chosen[0], &two[1]);
+    assert_int_equal(status.code, RT_OK);
+}
+
 static void no_device_names_the_way_out(void **state)
 {
     (void)state;
@@ -132,6 +181,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(selectors),
+        cmocka_unit_test(lists_of_selectors),
+        cmocka_unit_test(names_with_commas),
         cmocka_unit_test(no_device_names_the_way_out),
         cmocka_unit_test(an_unknown_device_lists_what_there_is),
         cmocka_unit_test(lanes_follow_the_native_width),

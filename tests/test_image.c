@@ -149,6 +149,33 @@ static void files_hold_the_picture(void **state)
     rt_image_clear(&image);
 }
 
+/* Sizes around the blocks that are quantised at a time, with values of every kind. */
+static void png_is_lossless_at_every_size(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {1, 64}, {21, 1}, {22, 1}, {64, 3}, {257, 131}};
+    static const float odd[] = {NAN, INFINITY, -INFINITY, -0.0f, -1.0f, 1.5f, 1e30f, 1e-30f};
+    test_random random = {7};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; ++s) {
+        rt_image image;
+        rt_status status = RT_STATUS_INIT;
+        int width = 0, height = 0, components = 0;
+        assert_good(rt_image_init(&image, sizes[s][0], sizes[s][1], false, &status), &status);
+        const int count = 3 * image.width * image.height;
+        for (int i = 0; i < count; ++i)
+            image.rgb[i] = i % 5 == 4 ? odd[test_random_bits(&random) % 8]
+                                      : test_random_float(&random, -0.1f, 1.1f);
+        unsigned char *pixels =
+            stbi_load(write_as(&image, "b.png"), &width, &height, &components, 3);
+        assert_non_null(pixels);
+        assert_true(width == image.width && height == image.height && components == 3);
+        for (int i = 0; i < count; ++i)
+            assert_int_equal(pixels[i], rt_image_step(image.rgb[i]));
+        stbi_image_free(pixels);
+        rt_image_clear(&image);
+    }
+}
+
 static void hdr_keeps_what_is_above_one(void **state)
 {
     (void)state;
@@ -198,6 +225,7 @@ int main(void)
         cmocka_unit_test(hits_are_compared_by_bits),
         cmocka_unit_test(formats_by_extension),
         cmocka_unit_test(files_hold_the_picture),
+        cmocka_unit_test(png_is_lossless_at_every_size),
         cmocka_unit_test(hdr_keeps_what_is_above_one),
         cmocka_unit_test(hit_records_are_little_endian),
     };

@@ -51,6 +51,18 @@ static void good_lines(void **state)
     assert_true(o.quiet);
     assert_int_equal(read_line("-d Scalar - -", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.target, RT_TARGET_SCALAR);
+    assert_int_equal(read_line("-d 0,gpu s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_string_equal(o.device, "0,gpu");
+    assert_int_equal(o.target, RT_TARGET_DEVICE);
+    assert_int_equal(o.progress, RT_PROGRESS_AUTO);
+    assert_int_equal(read_line("--progress always s.txt o.png", &o, message, sizeof message),
+                     RT_OK);
+    assert_int_equal(o.progress, RT_PROGRESS_ALWAYS);
+    assert_int_equal(read_line("--progress=never s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.progress, RT_PROGRESS_NEVER);
+    assert_int_equal(read_line("--progress always -q s.txt o.png", &o, message, sizeof message),
+                     RT_OK);
+    assert_int_equal(o.progress, RT_PROGRESS_NEVER);
     assert_int_equal(read_line("--verify s.txt", &o, message, sizeof message), RT_OK);
     assert_true(o.verify);
     assert_int_equal(read_line("--stats - s.txt", &o, message, sizeof message), RT_OK);
@@ -74,6 +86,10 @@ static void the_environment_names_a_device(void **state)
     assert_int_equal(read_line("--device cpu s.txt o.png", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.target, RT_TARGET_DEVICE);
     assert_string_equal(o.device, "cpu");
+    /* What is overridden need not make sense. */
+    setenv("RT_DEVICE", "scalar,", 1);
+    assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_ERROR_USAGE);
+    assert_int_equal(read_line("--device cpu s.txt o.png", &o, message, sizeof message), RT_OK);
     unsetenv("RT_DEVICE");
 }
 
@@ -103,6 +119,13 @@ static void misuse(void **state)
         {"s.txt --verify --stats -", "only one thing"},
         {"s.txt --verify --device scalar", "--verify holds a device"},
         {"s.txt o.png --device=", "--device takes"},
+        {"s.txt o.png --device 0,", "found '0,'; --device takes a name or index on each side"},
+        {"s.txt o.png --device ,0", "--device takes"},
+        {"s.txt o.png --device 0,,1", "--device takes"},
+        {"s.txt o.png --device 0,Scalar", "the scalar path renders alone"},
+        {"s.txt o.png --device scalar-double,0", "the scalar path renders alone"},
+        {"s.txt o.png --device cpu,all", "all devices cannot be part of a list"},
+        {"s.txt o.png --progress some", "found 'some'; --progress takes auto, always or never"},
     };
     char message[512];
     rt_options o;

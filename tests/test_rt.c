@@ -141,7 +141,7 @@ static void a_difference_is_5(void **state)
     test_restore_kernels();
     assert_says("differ, first at pixel");
     assert_exists("differs.png", true); /* it is what there is to look at */
-    test_mutate_kernels("intersect.cl", "MASK(t < h->t) |", "MASK(t > h->t) |");
+    test_mutate_kernels("packet.cl", "MASK(m->t < h->t) |", "MASK(m->t > h->t) |");
     assert_int_equal(run("$RT --verify scenes/icecream.txt --size 100x80 >$T/report"), 5);
     test_restore_kernels();
 }
@@ -155,6 +155,88 @@ static void an_interrupt_is_130(void **state)
                      130);
     assert_exists("i.png", false);
     assert_int_equal(run("[ $(ls $T/i.png* 2>/dev/null | wc -l) = 0 ]"), 0);
+}
+
+/* What a render of some seconds says until it is interrupted. */
+static void stop_a_long_render(const char *options)
+{
+    char command[400];
+    snprintf(command, sizeof command,
+             "$RT --device scalar --size 8000x8000 %s scenes/icecream.txt $T/p.png &"
+             "pid=$!; sleep 2.4; kill -INT $pid; wait $pid",
+             options);
+    assert_int_equal(run(command), 130);
+    assert_says("rt: interrupted\n");
+    if (strchr(errors, '\r'))
+        fail_msg("a carriage return in a file: %s", errors);
+}
+
+/* Standard error is a file here, in which no line is ever rewritten. */
+static void progress_in_a_file(void **state)
+{
+    (void)state;
+    stop_a_long_render("--progress always");
+    assert_says(" %, 0:01 gone, ");
+    assert_says(" to go\n");
+    stop_a_long_render("");
+    assert_null(strstr(errors, " gone"));
+    stop_a_long_render("-q --progress always");
+    assert_null(strstr(errors, " gone"));
+    assert_int_equal(run("$RT --progress always --size 64x64 scenes/icecream.txt $T/p.png"), 0);
+    assert_null(strstr(errors, " gone"));
+}
+
+/* util-linux's script lends a terminal. The line is gone before the last message comes. */
+static void progress_on_a_terminal(void **state)
+{
+    (void)state;
+    if (run("command -v script >$T/which") != 0) {
+        print_message("there is no script(1): the terminal is not tested\n");
+        return;
+    }
+    run("script -qec \"timeout -s INT 1.8 $RT --device scalar --size 8000x8000"
+        " scenes/icecream.txt $T/t.png\" $T/typescript </dev/null >$T/which");
+    char *text = test_read_file(test_path("typescript"), NULL);
+    assert_non_null(text);
+    const char *first = strstr(text, "\rrt: "), *last = strstr(text, "\rrt: interrupted");
+    if (!first || !last || first == last || !strstr(first, " gone, ") || strstr(last, " gone"))
+        fail_msg("%s", text);
+    free(text);
+}
+
+/* One device named twice is one; two are there on machines that have them. */
+static void several_devices(void **state)
+{
+    (void)state;
+    assert_int_equal(run("$RT -q --size 99x61 --hits $T/1.hits scenes/icecream.txt $T/1.png &&"
+                         "$RT -q --size 99x61 --tile 16 --device all --hits $T/all.hits --stats "
+                         "$T/all.json scenes/icecream.txt $T/all.png"),
+                     0);
+    assert_int_equal(run("cmp $T/1.hits $T/all.hits && cmp $T/1.png $T/all.png"), 0);
+    assert_int_equal(run("$RT --list-devices | tail -n +2 | wc -l >$T/count"), 0);
+    json_error_t error;
+    json_t *root = json_load_file(test_path("all.json"), 0, &error);
+    const json_t *devices = json_object_get(root, "devices");
+    char *count = test_read_file(test_path("count"), NULL);
+    assert_int_equal(json_array_size(devices), atoi(count));
+    size_t tiles = 0, rays = 0, index;
+    const json_t *device;
+    json_array_foreach(devices, index, device)
+    {
+        assert_true(json_is_string(json_object_get(device, "name")));
+        assert_true(json_is_real(json_object_get(device, "seconds")));
+        tiles += (size_t)json_integer_value(json_object_get(device, "tiles"));
+        rays += (size_t)json_integer_value(json_object_get(device, "rays"));
+    }
+    assert_int_equal(tiles, 7 * 4);
+    assert_int_equal(rays, 99 * 61);
+    free(count);
+    json_decref(root);
+    assert_int_equal(run("$RT --size 8x8 --device 0,0,0 scenes/sphere.txt $T/same.png"), 0);
+    assert_says("rt: device 0 ");
+    assert_int_equal(run("$RT --size 8x8 --device 0,99 scenes/sphere.txt $T/same.png"), 3);
+    assert_says("no device fits '99'");
+    assert_int_equal(run("$RT --size 8x8 --device 0,scalar scenes/sphere.txt $T/same.png"), 2);
 }
 
 static void hit_records(void **state)
@@ -207,6 +289,7 @@ static void statistics(void **state)
     for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i)
         assert_true(number_at(root, "stages", stages[i]) >= 0.0);
     assert_int_equal(json_array_size(json_object_get(root, "effects")), 0);
+    assert_int_equal(json_array_size(json_object_get(root, "devices")), 1);
     json_decref(root);
     assert_int_equal(run("$RT -q --stats - --size 8x8 scenes/triangle.txt | grep -q culling"), 0);
     assert_int_equal(run("$RT -q --device scalar --stats - --size 8x8 scenes/sphere.txt |"
@@ -228,6 +311,9 @@ int main(void)
         cmocka_unit_test(an_unwritable_output_is_4),
         cmocka_unit_test(a_difference_is_5),
         cmocka_unit_test(an_interrupt_is_130),
+        cmocka_unit_test(progress_in_a_file),
+        cmocka_unit_test(progress_on_a_terminal),
+        cmocka_unit_test(several_devices),
         cmocka_unit_test(hit_records),
         cmocka_unit_test(statistics),
     };

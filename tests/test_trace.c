@@ -62,6 +62,17 @@ static void fill_scene(rt_scene *scene, uint64_t seed, float size, enum rt_cull 
     }
 }
 
+/* Mirrors a ray about its aim, axis by axis, so that all rays of a block go the same way along each
+ * axis: those walk as a packet, the others one by one. */
+static void send_the_same_way(rt_ray *r, const float aim[3], int block)
+{
+    for (int k = 0; k < 3; ++k)
+        if ((signbit(r->direction[k]) != 0) == (block >> k & 1)) {
+            r->direction[k] = -r->direction[k];
+            r->origin[k] = 2.0f * aim[k] - r->origin[k];
+        }
+}
+
 /* Four kinds in turn: anywhere, aimed at edges and corners, axis-parallel, and with a segment; some
  * of the first begin at a sphere's centre or at right angles to the way there, where roots cancel.
  */
@@ -74,6 +85,7 @@ static void fill_rays(const rt_scene *scene, uint64_t seed, float size, rt_ray *
         r->tmax = INFINITY;
         vector(&random, 2.0f * size, r->origin);
         vector(&random, 1.0f, r->direction);
+        float aim[3] = {0.0f, 0.0f, 0.0f};
         const uint64_t bits = test_random_bits(&random);
         if (i % 16 == 0) {
             const rt_sphere *sphere = &scene->spheres[bits % SPHERES];
@@ -88,7 +100,9 @@ static void fill_rays(const rt_scene *scene, uint64_t seed, float size, rt_ray *
             memcpy(p, &scene->triangles[bits % TRIANGLES], sizeof p);
             const float along = bits & 0x100000 ? test_random_float(&random, 0.0f, 1.0f) : 0.0f;
             for (int k = 0; k < 3; ++k)
-                r->direction[k] = p[k] + along * (p[3 + k] - p[k]) - r->origin[k];
+                aim[k] = p[k] + along * (p[3 + k] - p[k]);
+            for (int k = 0; k < 3; ++k)
+                r->direction[k] = aim[k] - r->origin[k];
         } else if (i % 4 == 2) {
             for (int k = 0; k < 3; ++k)
                 r->direction[k] = k == (int)(bits % 3) ? 1.0f : bits & 0x100 ? -0.0f : 0.0f;
@@ -97,6 +111,8 @@ static void fill_rays(const rt_scene *scene, uint64_t seed, float size, rt_ray *
             r->tmin = size * test_random_float(&random, 0.0f, 1.0f);
             r->tmax = r->tmin + size * test_random_float(&random, -0.2f, 3.0f);
         }
+        if (i / 64 % 2)
+            send_the_same_way(r, aim, i / 128);
     }
 }
 
@@ -171,12 +187,12 @@ static void a_wrong_kernel_is_noticed(void **state)
     static const struct {
         const char *file, *from, *to;
     } mutants[] = {
-        {"intersect.cl", "MASK(u + v <= det)", "MASK(u + v < det)"},
-        {"intersect.cl", "MASK(det > (real)0.0f)", "MASK(det > (real)1e-6f)"},
-        {"intersect.cl", "MASK((mask)index < h->index)", "MASK((mask)index > h->index)"},
+        {"intersect.cl", "MASK(m->u + m->v <= m->det)", "MASK(m->u + m->v < m->det)"},
+        {"intersect.cl", "MASK(m->det > (real)0.0f)", "MASK(m->det > (real)1e-6f)"},
+        {"packet.cl", "MASK((mask)index < h->index)", "MASK((mask)index > h->index)"},
         {"intersect.cl", "-DOT(l, l)", "-(l.x * l.x + l.y * l.y + l.z * l.z)"},
-        {"intersect.cl", "DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), det)",
-         "AS_REAL(AS_MASK(DOT(e2, q)) ^ sign) * DIVIDE((real)1.0f, det)"},
+        {"intersect.cl", "DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), m->det)",
+         "AS_REAL(AS_MASK(DOT(e2, q)) ^ sign) * DIVIDE((real)1.0f, m->det)"},
     };
     const fixture *f = *state;
     rt_status status = RT_STATUS_INIT;
