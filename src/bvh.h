@@ -10,17 +10,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "blocks.h"
 #include "scene.h"
 #include "status.h"
-
-/* Primitives in the blocks of kernels/types.h. */
-typedef struct rt_blocks {
-    rt_sphere_block *spheres;     /* owned */
-    rt_triangle_block *triangles; /* owned */
-    int32_t *order; /* owned: the primitive of each slot, spheres' slots and then triangles'; -1 for
-                       a place that is not filled */
-    size_t sphere_blocks, triangle_blocks;
-} rt_blocks;
 
 typedef struct rt_bvh {
     rt_node *nodes; /* owned; nodes[0] is the root, also where there is no primitive */
@@ -28,11 +20,6 @@ typedef struct rt_bvh {
     rt_blocks blocks;  /* one a leaf */
     size_t stack_size; /* entries that a depth-first walk needs at most */
 } rt_bvh;
-
-/* The scene's primitives in blocks in their own order, for a walk without a tree. On failure
- * nothing is owned. */
-bool rt_blocks_in_order(rt_blocks *blocks, const rt_scene *scene, rt_status *status);
-void rt_blocks_clear(rt_blocks *blocks);
 
 /* Builds on `threads` threads; the tree does not depend on their number. On failure (memory, or
  * more primitives than leaves can name) nothing is owned. */
