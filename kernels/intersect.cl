@@ -1,11 +1,14 @@
 /* Primitives against rays, lane by lane: many rays and one primitive in all lanes, or one ray in
- * all lanes and a block of primitives. Every test is written so that a NaN means a miss. */
+ * all lanes and a block of primitives; only `active` lanes mean anything. Every test is written so
+ * that a NaN means a miss. */
 
 typedef struct rays {
     real3 origin, direction;
     real3 inverse; /* 1 / direction, finite: the largest float where a component is 0 */
     real tmin;
+#if RT_SPHERES
     real dd, inv_dd; /* dot(direction, direction) and its reciprocal */
+#endif
 } rays;
 
 /* Where rays and primitives meet: t within the primitive's box, and barycentric coordinates times
@@ -52,7 +55,7 @@ INLINE void keep_in_box(const rays *r, real lo_x, real hi_x, real lo_y, real hi_
 /* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
  * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
  * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
-INLINE int meet_spheres(const rays *r, real3 center, real radius, meeting *m)
+INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
 {
     const real3 f = SUB(real3, r->origin, center);
     const real b = -DOT(f, r->direction);
@@ -60,7 +63,7 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, meeting *m)
     const real3 l = {fma(approach, r->direction.x, f.x), fma(approach, r->direction.y, f.y),
                      fma(approach, r->direction.z, f.z)};
     const real discriminant = fma(radius, radius, -DOT(l, l));
-    m->on = MASK(discriminant >= (real)0.0f);
+    m->on = active & MASK(discriminant >= (real)0.0f);
     if (!ANY(m->on))
         return 0;
     /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
@@ -89,7 +92,7 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, meeting *m)
 /* Moller and Trumbore 1997. Barycentric bounds are tested before any division, against the
  * determinant itself: there is no epsilon, so the test is the same at every scale. Returns whether
  * any lane is on. */
-INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, meeting *m)
+INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask active, meeting *m)
 {
     const real3 e1 = SUB(real3, b, a);
     const real3 e2 = SUB(real3, c, a);

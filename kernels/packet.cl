@@ -59,7 +59,8 @@ INLINE int offer_spheres(packet *p, int groups, const world *w, int block, const
         const real3 center = SPLAT3(s->cx[k], s->cy[k], s->cz[k]);
         for (int g = 0; g < RT_GROUPS; ++g) {
             meeting m;
-            if ((groups >> g & 1) && meet_spheres(&p->r[g], center, (real)s->radius[k], &m))
+            if ((groups >> g & 1) &&
+                meet_spheres(&p->r[g], center, (real)s->radius[k], (mask)-1, &m))
                 changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
         }
     }
@@ -79,7 +80,7 @@ INLINE int offer_triangles(packet *p, int groups, const world *w, int block, con
         const real3 c = SPLAT3(s->cx[k], s->cy[k], s->cz[k]);
         for (int g = 0; g < RT_GROUPS; ++g) {
             meeting m;
-            if ((groups >> g & 1) && meet_triangles(&p->r[g], a, b, c, &m))
+            if ((groups >> g & 1) && meet_triangles(&p->r[g], a, b, c, (mask)-1, &m))
                 changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
         }
     }

@@ -39,20 +39,20 @@ typedef RT_PASTE(int, RT_LANES) mask;
 /* Functions of the trace stage are parts of one loop: as calls they would spill every vector. */
 #define INLINE __attribute__((always_inline))
 
-/* Whether a lane is on. Written out because PoCL's any() tests lane after lane with a branch each.
- */
+/* Whether a lane is on. Written out because PoCL's any() tests lane after lane with a branch each;
+ * as bytes the lanes fit into one or two integers. */
 INLINE int lanes_or4(int4 m)
 {
-    const int2 half_ = m.lo | m.hi;
-    return half_.x | half_.y;
+    return as_int(convert_char4(m)) != 0;
 }
 INLINE int lanes_or8(int8 m)
 {
-    return lanes_or4(m.lo | m.hi);
+    return as_long(convert_char8(m)) != 0;
 }
 INLINE int lanes_or16(int16 m)
 {
-    return lanes_or8(m.lo | m.hi);
+    const long2 halves = as_long2(convert_char16(m));
+    return (halves.x | halves.y) != 0;
 }
 
 /* The extremes of vectors; unlike fmin and fmax these are one instruction, and for NaN they are

@@ -23,8 +23,10 @@ INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *
     r->inverse.x = finite_reciprocal(r->direction.x);
     r->inverse.y = finite_reciprocal(r->direction.y);
     r->inverse.z = finite_reciprocal(r->direction.z);
+#if RT_SPHERES
     r->dd = DOT(r->direction, r->direction);
     r->inv_dd = DIVIDE((real)1.0f, r->dd);
+#endif
     /* Zero times anything finite is zero, anything else is NaN. */
     const real zero = (real)0.0f;
     const real nought = r->origin.x * zero + r->origin.y * zero + r->origin.z * zero +

@@ -225,17 +225,16 @@ INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
 #if RT_LANES > 1 && (RT_SPHERES || RT_TRIANGLES)
 /* ---- One ray at a time ---- */
 
-/* A block's component in the lanes; lanes beyond the block are zero, or -1 for the order. */
+/* The lanes that a block fills. What a whole vector loads beyond the block is not looked at; arrays
+ * end with enough to load. */
 #if RT_LANES == 4
-#define BLOCK_REAL(p) vload4(0, p)
-#define BLOCK_MASK(p) vload4(0, p)
+#define BLOCK_LANES ((int4)-1)
 #elif RT_LANES == 8
-#define BLOCK_REAL(p) ((float8)(vload4(0, p), (float4)0.0f))
-#define BLOCK_MASK(p) ((int8)(vload4(0, p), (int4)-1))
+#define BLOCK_LANES ((int8)((int4)-1, (int4)0))
 #else
-#define BLOCK_REAL(p) ((float16)(vload4(0, p), (float4)0.0f, (float8)0.0f))
-#define BLOCK_MASK(p) ((int16)(vload4(0, p), (int4)-1, (int8)-1))
+#define BLOCK_LANES ((int16)((int4)-1, (int4)0, (int8)0))
 #endif
+#define BLOCK_LOAD(p) RT_PASTE(vload, RT_LANES)(0, p)
 
 /* Lane k of a vector in memory. */
 #define LANE(v, k) (((float *)&(v))[k])
@@ -278,20 +277,20 @@ INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int
 #endif
     {
         __global const rt_sphere_block *s = w->spheres + block;
-        const real3 center = {BLOCK_REAL(s->cx), BLOCK_REAL(s->cy), BLOCK_REAL(s->cz)};
-        if (meet_spheres(r, center, BLOCK_REAL(s->radius), &m))
-            take_best(h, &m, BLOCK_MASK(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
+        const real3 center = {BLOCK_LOAD(s->cx), BLOCK_LOAD(s->cy), BLOCK_LOAD(s->cz)};
+        if (meet_spheres(r, center, BLOCK_LOAD(s->radius), BLOCK_LANES, &m))
+            take_best(h, &m, BLOCK_LOAD(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
         return;
     }
 #endif
 #if RT_TRIANGLES
     __global const rt_triangle_block *t = w->triangles + block;
-    const real3 a = {BLOCK_REAL(t->ax), BLOCK_REAL(t->ay), BLOCK_REAL(t->az)};
-    const real3 b = {BLOCK_REAL(t->bx), BLOCK_REAL(t->by), BLOCK_REAL(t->bz)};
-    const real3 c = {BLOCK_REAL(t->cx), BLOCK_REAL(t->cy), BLOCK_REAL(t->cz)};
+    const real3 a = {BLOCK_LOAD(t->ax), BLOCK_LOAD(t->ay), BLOCK_LOAD(t->az)};
+    const real3 b = {BLOCK_LOAD(t->bx), BLOCK_LOAD(t->by), BLOCK_LOAD(t->bz)};
+    const real3 c = {BLOCK_LOAD(t->cx), BLOCK_LOAD(t->cy), BLOCK_LOAD(t->cz)};
     __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
-    if (meet_triangles(r, a, b, c, &m))
-        take_best(h, &m, BLOCK_MASK(order), block, any);
+    if (meet_triangles(r, a, b, c, BLOCK_LANES, &m))
+        take_best(h, &m, BLOCK_LOAD(order), block, any);
 #endif
 }
 
@@ -364,8 +363,10 @@ INLINE void spread_ray(const rays *from, int k, rays *r)
     r->inverse =
         SPLAT3(LANE(from->inverse.x, k), LANE(from->inverse.y, k), LANE(from->inverse.z, k));
     r->tmin = (real)LANE(from->tmin, k);
+#if RT_SPHERES
     r->dd = (real)LANE(from->dd, k);
     r->inv_dd = (real)LANE(from->inv_dd, k);
+#endif
 }
 
 INLINE void walk_rays(packet *p, const world *w, const int any)

@@ -49,6 +49,7 @@ typedef struct rt_triangle {
  * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is
  * place k of block i. A place that is not filled has zeros, which nothing hits. */
 #define RT_BLOCK_PRIMITIVES 4
+#define RT_ORDER_PADDING 16
 
 typedef struct rt_sphere_block {
     float cx[RT_BLOCK_PRIMITIVES], cy[RT_BLOCK_PRIMITIVES], cz[RT_BLOCK_PRIMITIVES];

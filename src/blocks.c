@@ -8,15 +8,20 @@
 /* Slots that a thread copies at a time. */
 #define CHUNK ((size_t)16384)
 
+size_t rt_blocks_slots(const rt_blocks *blocks)
+{
+    return (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+}
+
 bool rt_blocks_make(rt_blocks *blocks)
 {
-    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    const size_t slots = rt_blocks_slots(blocks);
     blocks->spheres = calloc(blocks->sphere_blocks + 1, sizeof *blocks->spheres);
     blocks->triangles = calloc(blocks->triangle_blocks + 1, sizeof *blocks->triangles);
-    blocks->order = malloc((slots + 1) * sizeof *blocks->order);
+    blocks->order = malloc((slots + RT_ORDER_PADDING) * sizeof *blocks->order);
     if (!blocks->spheres || !blocks->triangles || !blocks->order)
         return false;
-    memset(blocks->order, 0xff, (slots + 1) * sizeof *blocks->order); /* -1 */
+    memset(blocks->order, 0xff, (slots + RT_ORDER_PADDING) * sizeof *blocks->order); /* -1 */
     return true;
 }
 
@@ -70,7 +75,7 @@ static void gather_chunk(void *context, size_t chunk)
 void rt_blocks_gather(rt_blocks *blocks, const rt_scene *scene, int threads)
 {
     gathering g = {scene, blocks};
-    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    const size_t slots = rt_blocks_slots(blocks);
     rt_parallel((slots + CHUNK - 1) / CHUNK, threads, gather_chunk, &g);
 }
 

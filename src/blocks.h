@@ -9,6 +9,7 @@
 #include "scene.h"
 #include "status.h"
 
+/* Each array has at its end what kernels/types.h asks for beyond the counts given here. */
 typedef struct rt_blocks {
     rt_sphere_block *spheres;     /* owned */
     rt_triangle_block *triangles; /* owned */
@@ -16,6 +17,9 @@ typedef struct rt_blocks {
                        a place that is not filled */
     size_t sphere_blocks, triangle_blocks;
 } rt_blocks;
+
+/* Slots of both kinds, those that are not filled included. */
+size_t rt_blocks_slots(const rt_blocks *blocks);
 
 /* Makes room for blocks->sphere_blocks and blocks->triangle_blocks, with every place unfilled.
  * False without memory; what there is then is the caller's to clear. */

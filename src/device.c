@@ -1,8 +1,10 @@
 #define _GNU_SOURCE
 #include "device.h"
 
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "array.h"
 #include "number.h"
@@ -84,9 +86,25 @@ static bool read_platform(rt_device_list *list, cl_platform_id platform, int pla
     return good;
 }
 
+/* PoCL's threads wander between processors unless they are pinned, and for the length of a tile two
+ * of them share one: pinned, coherent rays take 0.6 of the time. It pins thread i to processor i
+ * without looking, so this is done only where this process may run on all there are. */
+static void pin_pocl_threads(void)
+{
+    const long online = sysconf(_SC_NPROCESSORS_ONLN);
+    cpu_set_t set;
+    if (online < 1 || online > CPU_SETSIZE || sched_getaffinity(0, sizeof set, &set) != 0)
+        return;
+    for (long i = 0; i < online; ++i)
+        if (!CPU_ISSET((size_t)i, &set))
+            return;
+    setenv("POCL_AFFINITY", "1", 0);
+}
+
 bool rt_device_list_read(rt_device_list *list, rt_status *status)
 {
     *list = (rt_device_list){NULL, 0, 0};
+    pin_pocl_threads();
     cl_uint count = 0;
     const cl_int error = clGetPlatformIDs(0, NULL, &count);
     if (error == PLATFORM_NOT_FOUND_KHR || (error == CL_SUCCESS && count == 0))

@@ -127,16 +127,16 @@ static bool upload_geometry(rt_renderer *r, const rt_scene *scene, const rt_bvh 
     if (!bvh && !rt_blocks_in_order(&in_order, scene, status))
         return false;
     const rt_blocks *blocks = bvh ? &bvh->blocks : &in_order;
-    const size_t slots = (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    const size_t slots = rt_blocks_slots(blocks) + RT_ORDER_PADDING;
     r->sphere_blocks = (cl_int)blocks->sphere_blocks;
     r->triangle_blocks = (cl_int)blocks->triangle_blocks;
     const bool good =
         upload(r, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
                &b->nodes, status) &&
         upload(r, blocks->order, slots * sizeof *blocks->order, &b->order, status) &&
-        upload(r, blocks->spheres, blocks->sphere_blocks * sizeof *blocks->spheres, &b->spheres,
-               status) &&
-        upload(r, blocks->triangles, blocks->triangle_blocks * sizeof *blocks->triangles,
+        upload(r, blocks->spheres, (blocks->sphere_blocks + 1) * sizeof *blocks->spheres,
+               &b->spheres, status) &&
+        upload(r, blocks->triangles, (blocks->triangle_blocks + 1) * sizeof *blocks->triangles,
                &b->triangles, status);
     rt_blocks_clear(&in_order);
     return good;
