@@ -10,7 +10,7 @@
 #include "parallel.h"
 
 /* Primitives below which a rt_range is expected to fit into one node. */
-#define NODE_PRIMITIVES ((size_t)RT_WIDTH * (RT_LEAF_TARGET - 1))
+#define NODE_PRIMITIVES ((size_t)RT_WIDTH * RT_LEAF_TARGET)
 
 /* What one task builds: a subtree with node indices of its own. */
 typedef struct subtree {
