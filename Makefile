@@ -55,9 +55,6 @@ $(BUILD)/%.o: src/%.c | $(BUILD)
 	$(call say,CC)
 	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -c -o $@ $<
 
-# Loops over four floats become vector instructions only when told to.
-$(BUILD)/bvh.o $(BUILD)/bvh_split.o: override CFLAGS += -O3
-
 # Its JPEG writer shifts into the sign bit; that is the library's, and harmless. Its loops over a
 # picture's bytes are vectorised at -O3 only.
 $(BUILD)/stb_write.o: override CFLAGS += -O3 -fno-sanitize=undefined

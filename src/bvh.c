@@ -99,12 +99,12 @@ static void clear_node(rt_node *node)
 
 static void set_child(rt_node *node, int i, const rt_box *bounds, int32_t child)
 {
-    node->lo_x[i] = bounds->lo.v[0];
-    node->lo_y[i] = bounds->lo.v[1];
-    node->lo_z[i] = bounds->lo.v[2];
-    node->hi_x[i] = bounds->hi.v[0];
-    node->hi_y[i] = bounds->hi.v[1];
-    node->hi_z[i] = bounds->hi.v[2];
+    node->lo_x[i] = bounds->lo[0];
+    node->lo_y[i] = bounds->lo[1];
+    node->lo_z[i] = bounds->lo[2];
+    node->hi_x[i] = bounds->hi[0];
+    node->hi_y[i] = bounds->hi[1];
+    node->hi_z[i] = bounds->hi[2];
     node->child[i] = child;
 }
 

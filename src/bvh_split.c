@@ -3,63 +3,55 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #define BINS_MAX 16
 /* Binary splits below which ranges are halved by count: bounds the depth for any input. */
 #define DEPTH_OF_HEURISTIC 48
 
-static inline rt_four four_min(rt_four a, rt_four b)
-{
-    rt_four r;
-    for (int i = 0; i < 4; ++i)
-        r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
-    return r;
-}
+#ifdef __SSE__
 
-static inline rt_four four_max(rt_four a, rt_four b)
+#define FOUR_MIN _mm_min_ps
+#define FOUR_MAX _mm_max_ps
+#else
+typedef int four_mask __attribute__((vector_size(16)));
+
+static inline rt_four four_select(four_mask m, rt_four a, rt_four b)
 {
-    rt_four r;
-    for (int i = 0; i < 4; ++i)
-        r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
-    return r;
+    return (rt_four)(((four_mask)a & m) | ((four_mask)b & ~m));
 }
+#define FOUR_MIN(a, b) four_select((a) < (b), a, b)
+#define FOUR_MAX(a, b) four_select((a) > (b), a, b)
+#endif
 
 static inline rt_four four_load(const float *p)
 {
     rt_four r;
-    memcpy(r.v, p, sizeof r.v);
+    memcpy(&r, p, sizeof r);
     return r;
 }
 
 static rt_box empty_box(void)
 {
-    rt_box b;
-    for (int i = 0; i < 4; ++i) {
-        b.lo.v[i] = FLT_MAX;
-        b.hi.v[i] = -FLT_MAX;
-    }
-    return b;
+    return (rt_box){{FLT_MAX, FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX, -FLT_MAX}};
 }
 
 static inline void grow(rt_box *b, rt_four lo, rt_four hi)
 {
-    b->lo = four_min(b->lo, lo);
-    b->hi = four_max(b->hi, hi);
+    b->lo = FOUR_MIN(b->lo, lo);
+    b->hi = FOUR_MAX(b->hi, hi);
 }
 
 static inline rt_four centroid_of(const rt_reference *r)
 {
-    const rt_four lo = four_load(r->lo), hi = four_load(r->hi);
-    rt_four c;
-    for (int i = 0; i < 4; ++i)
-        c.v[i] = lo.v[i] + hi.v[i];
-    return c;
+    return four_load(r->lo) + four_load(r->hi);
 }
 
 float rt_box_half_area(const rt_box *b)
 {
-    const float x = b->hi.v[0] - b->lo.v[0], y = b->hi.v[1] - b->lo.v[1],
-                z = b->hi.v[2] - b->lo.v[2];
+    const float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
     return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
 }
 
@@ -134,7 +126,7 @@ static plane find_plane(const rt_references *refs, const rt_range *r)
     bin bins[3][BINS_MAX];
     float origin[4], scale[4];
     for (int axis = 0; axis < 3; ++axis) {
-        const float low = r->centroids.lo.v[axis], extent = r->centroids.hi.v[axis] - low;
+        const float low = r->centroids.lo[axis], extent = r->centroids.hi[axis] - low;
         origin[axis] = low;
         scale[axis] =
             extent > 0.0f && isfinite((float)count / extent) ? (float)count / extent : 0.0f;
@@ -145,7 +137,7 @@ static plane find_plane(const rt_references *refs, const rt_range *r)
         const rt_reference *ref = &refs->items[i];
         const rt_four lo = four_load(ref->lo), hi = four_load(ref->hi), c = centroid_of(ref);
         for (int axis = 0; axis < 3; ++axis) {
-            bin *chosen = &bins[axis][bin_of(c.v[axis], origin[axis], scale[axis], count)];
+            bin *chosen = &bins[axis][bin_of(c[axis], origin[axis], scale[axis], count)];
             grow(&chosen->bounds, lo, hi);
             chosen->count++;
         }
