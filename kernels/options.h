@@ -31,6 +31,14 @@
 #error "RT_STACK must be from 16 to 4096"
 #endif
 
+/* Whether there is a kernel for any hit beside that for the nearest. */
+#ifndef RT_OCCLUSION
+#define RT_OCCLUSION 0
+#endif
+#if RT_OCCLUSION != 0 && RT_OCCLUSION != 1
+#error "RT_OCCLUSION must be 0 or 1"
+#endif
+
 /* Whether the scene has spheres, and whether it has triangles. */
 #ifndef RT_SPHERES
 #define RT_SPHERES 1

@@ -75,6 +75,7 @@ rt_trace(const int stride, __global const float *ray_array, __global const rt_no
         store_hits(&p.h[g], first + g * RT_LANES, step, hit_index, hit_slot, hit_array);
 }
 
+#if RT_OCCLUSION
 /* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
  * differ from device to device; whether there is one does not. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
@@ -91,3 +92,4 @@ rt_occlude(const int stride, __global const float *ray_array, __global const rt_
     for (int g = 0; g < RT_GROUPS; ++g)
         STORE_MASK(p.h[g].index, hit_index + first + g * RT_LANES);
 }
+#endif

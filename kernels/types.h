@@ -36,15 +36,6 @@
 #define RT_NORMAL_COMPONENTS 9
 #define RT_COLOR_COMPONENTS 3
 
-/* Primitive indices count the spheres first, in file order, then the triangles. */
-typedef struct rt_sphere {
-    float cx, cy, cz, radius;
-} rt_sphere;
-
-typedef struct rt_triangle {
-    float ax, ay, az, bx, by, bz, cx, cy, cz;
-} rt_triangle;
-
 /* Primitives go to the device in blocks of four, component by component, so that one ray can be
  * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is
  * place k of block i. A place that is not filled has zeros, which nothing hits. */
@@ -115,7 +106,7 @@ typedef struct rt_tile {
     int x, y, width, height;
 } rt_tile;
 
-/* Ambient light times nothing yet: the material's ka is applied where it is known. */
+/* The light that comes from nowhere in particular. */
 typedef struct rt_surround {
     float background_r, background_g, background_b;
     float ambient_r, ambient_g, ambient_b;

@@ -21,7 +21,8 @@ enum rt_rounding rt_program_rounding(const rt_device *device);
 /* How the trace stage walks (kernels/options.h). */
 typedef struct rt_walk {
     int lanes, packet;
-    size_t stack_size; /* entries that the tree needs at most; 0 for no tree */
+    size_t stack_size;   /* entries that the tree needs at most; 0 for no tree */
+    bool with_occlusion; /* whether any hit is asked for too */
 } rt_walk;
 
 /* Writes the compiler options of a variant to options[0..RT_PROGRAM_OPTIONS_SIZE). */

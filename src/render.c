@@ -6,6 +6,7 @@
 
 #include "cl.h"
 #include "clock.h"
+#include "device_scene.h"
 #include "program.h"
 
 /* Tiles whose commands may be in the queue at a time: one runs while the host prepares another. */
@@ -20,12 +21,6 @@ typedef struct flight {
     bool busy;
 } flight;
 
-/* Scene arrays on the device. */
-typedef struct scene_buffers {
-    cl_mem nodes, order, spheres, triangles; /* in slot order */
-    cl_mem materials_of, normals_of, normals, materials, lights;
-} scene_buffers;
-
 /* Arrays between the stages, for one tile. */
 typedef struct tile_buffers {
     cl_mem rays, hit_index, hit_slot, hit_array, colors, picture, records;
@@ -36,13 +31,12 @@ struct rt_renderer {
     cl_command_queue queue;
     cl_program program;
     cl_kernel kernels[RT_STAGE_COUNT];
-    scene_buffers scene;
+    rt_device_scene scene;
     tile_buffers tile;
     cl_int stride; /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
     int tile_side, lanes, packet;
-    cl_int sphere_blocks, triangle_blocks;
     int width, height;
-    bool with_hits;
+    bool with_hits, with_occlusion;
     float *staging; /* owned: stride values, for rt_renderer_trace */
     flight flights[TILES_IN_FLIGHT];
     rt_render_times times;
@@ -84,96 +78,24 @@ static double event_seconds(cl_event event)
     return 1e-9 * (double)(end - start);
 }
 
-/* A buffer that holds at least one byte, since OpenCL has no empty ones. */
-static bool make_buffer(rt_renderer *r, cl_mem_flags flags, size_t size, cl_mem *buffer,
-                        rt_status *status)
-{
-    cl_int error = CL_SUCCESS;
-    *buffer = clCreateBuffer(r->context, flags, size ? size : 1, NULL, &error);
-    return RT_CL_MADE(error, "clCreateBuffer", status);
-}
-
-static bool upload(rt_renderer *r, const void *bytes, size_t size, cl_mem *buffer,
-                   rt_status *status)
-{
-    return make_buffer(r, CL_MEM_READ_ONLY, size, buffer, status) &&
-           (size == 0 ||
-            RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, size, bytes, 0, NULL, NULL),
-                  status));
-}
-
-/* One array of material indices for all primitives, spheres first. */
-static bool upload_material_indices(rt_renderer *r, const rt_scene *scene, rt_status *status)
-{
-    const size_t spheres = scene->sphere_count * sizeof *scene->sphere_materials;
-    const size_t triangles = scene->triangle_count * sizeof *scene->triangle_materials;
-    cl_mem *buffer = &r->scene.materials_of;
-    return make_buffer(r, CL_MEM_READ_ONLY, spheres + triangles, buffer, status) &&
-           (spheres == 0 || RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, 0, spheres,
-                                                       scene->sphere_materials, 0, NULL, NULL),
-                                  status)) &&
-           (triangles == 0 ||
-            RT_CL(clEnqueueWriteBuffer(r->queue, *buffer, CL_TRUE, spheres, triangles,
-                                       scene->triangle_materials, 0, NULL, NULL),
-                  status));
-}
-
-/* The arrays that the trace stage works on. */
-static bool upload_geometry(rt_renderer *r, const rt_scene *scene, const rt_bvh *bvh,
-                            rt_status *status)
-{
-    scene_buffers *b = &r->scene;
-    rt_blocks in_order = {0};
-    if (!bvh && !rt_blocks_in_order(&in_order, scene, status))
-        return false;
-    const rt_blocks *blocks = bvh ? &bvh->blocks : &in_order;
-    const size_t slots = rt_blocks_slots(blocks) + RT_ORDER_PADDING;
-    r->sphere_blocks = (cl_int)blocks->sphere_blocks;
-    r->triangle_blocks = (cl_int)blocks->triangle_blocks;
-    const bool good =
-        upload(r, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
-               &b->nodes, status) &&
-        upload(r, blocks->order, slots * sizeof *blocks->order, &b->order, status) &&
-        upload(r, blocks->spheres, (blocks->sphere_blocks + 1) * sizeof *blocks->spheres,
-               &b->spheres, status) &&
-        upload(r, blocks->triangles, (blocks->triangle_blocks + 1) * sizeof *blocks->triangles,
-               &b->triangles, status);
-    rt_blocks_clear(&in_order);
-    return good;
-}
-
-static bool upload_scene(rt_renderer *r, const rt_scene *scene, const rt_bvh *bvh,
-                         rt_status *status)
-{
-    scene_buffers *b = &r->scene;
-    /* Without vertex normals the kernels do not read the records' indices. */
-    const size_t records = scene->normal_count ? scene->triangle_count : 0;
-    const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
-    return upload_geometry(r, scene, bvh, status) && upload_material_indices(r, scene, status) &&
-           upload(r, scene->triangle_normals, records * sizeof *scene->triangle_normals,
-                  &b->normals_of, status) &&
-           upload(r, scene->normals, normals * sizeof *scene->normals, &b->normals, status) &&
-           upload(r, scene->materials, scene->material_count * sizeof *scene->materials,
-                  &b->materials, status) &&
-           upload(r, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights, status);
-}
-
 static bool make_tile_buffers(rt_renderer *r, rt_status *status)
 {
     const size_t rays = (size_t)r->stride;
     tile_buffers *b = &r->tile;
-    return make_buffer(r, CL_MEM_READ_WRITE, rays * RT_RAY_COMPONENTS * sizeof(float), &b->rays,
-                       status) &&
-           make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_index, status) &&
-           make_buffer(r, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_slot, status) &&
-           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_HIT_COMPONENTS * sizeof(float),
-                       &b->hit_array, status) &&
-           make_buffer(r, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float), &b->colors,
-                       status) &&
-           make_buffer(r, CL_MEM_WRITE_ONLY, rays * RT_COLOR_COMPONENTS * sizeof(float),
-                       &b->picture, status) &&
-           make_buffer(r, CL_MEM_WRITE_ONLY, r->with_hits ? rays * sizeof(rt_hit) : 0, &b->records,
-                       status);
+    return rt_buffer_make(r->context, CL_MEM_READ_WRITE, rays * RT_RAY_COMPONENTS * sizeof(float),
+                          &b->rays, status) &&
+           rt_buffer_make(r->context, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_index,
+                          status) &&
+           rt_buffer_make(r->context, CL_MEM_READ_WRITE, rays * sizeof(cl_int), &b->hit_slot,
+                          status) &&
+           rt_buffer_make(r->context, CL_MEM_READ_WRITE, rays * RT_HIT_COMPONENTS * sizeof(float),
+                          &b->hit_array, status) &&
+           rt_buffer_make(r->context, CL_MEM_READ_WRITE, rays * RT_COLOR_COMPONENTS * sizeof(float),
+                          &b->colors, status) &&
+           rt_buffer_make(r->context, CL_MEM_WRITE_ONLY, rays * RT_COLOR_COMPONENTS * sizeof(float),
+                          &b->picture, status) &&
+           rt_buffer_make(r->context, CL_MEM_WRITE_ONLY, r->with_hits ? rays * sizeof(rt_hit) : 0,
+                          &b->records, status);
 }
 
 typedef struct argument {
@@ -200,7 +122,7 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
 {
     for (int i = 0; i < RT_STAGE_COUNT; ++i) {
         cl_int error = CL_SUCCESS;
-        if (i == RT_STAGE_HITS && !r->with_hits)
+        if ((i == RT_STAGE_HITS && !r->with_hits) || (i == RT_STAGE_OCCLUDE && !r->with_occlusion))
             continue;
         r->kernels[i] = clCreateKernel(r->program, stages[i].kernel, &error);
         if (!RT_CL_MADE(error, "clCreateKernel", status))
@@ -213,14 +135,14 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
     const cl_int spheres = (cl_int)scene->sphere_count;
     const cl_int lights = (cl_int)scene->light_count;
     const cl_int stride = r->stride;
-    const scene_buffers *s = &r->scene;
+    const rt_device_scene *s = &r->scene;
     const tile_buffers *t = &r->tile;
     return SET_ARGUMENTS(r->kernels[RT_STAGE_CAMERA], status, ARGUMENT(frame), ARGUMENT(tile),
                          ARGUMENT(stride), ARGUMENT(t->rays)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_TRACE], status, ARGUMENT(stride), ARGUMENT(t->rays),
                          ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
-                         ARGUMENT(r->sphere_blocks), ARGUMENT(s->triangles),
-                         ARGUMENT(r->triangle_blocks), ARGUMENT(t->hit_index),
+                         ARGUMENT(s->sphere_blocks), ARGUMENT(s->triangles),
+                         ARGUMENT(s->triangle_blocks), ARGUMENT(t->hit_index),
                          ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_SHADE], status, ARGUMENT(stride), ARGUMENT(t->rays),
                          ARGUMENT(t->hit_index), ARGUMENT(t->hit_slot), ARGUMENT(t->hit_array),
@@ -230,10 +152,11 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
                          ARGUMENT(surround), ARGUMENT(t->colors)) &&
            SET_ARGUMENTS(r->kernels[RT_STAGE_RESOLVE], status, ARGUMENT(tile), ARGUMENT(stride),
                          ARGUMENT(t->colors), ARGUMENT(t->picture)) &&
-           SET_ARGUMENTS(r->kernels[RT_STAGE_OCCLUDE], status, ARGUMENT(stride), ARGUMENT(t->rays),
-                         ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
-                         ARGUMENT(r->sphere_blocks), ARGUMENT(s->triangles),
-                         ARGUMENT(r->triangle_blocks), ARGUMENT(t->hit_index)) &&
+           (!r->with_occlusion ||
+            SET_ARGUMENTS(r->kernels[RT_STAGE_OCCLUDE], status, ARGUMENT(stride), ARGUMENT(t->rays),
+                          ARGUMENT(s->nodes), ARGUMENT(s->order), ARGUMENT(s->spheres),
+                          ARGUMENT(s->sphere_blocks), ARGUMENT(s->triangles),
+                          ARGUMENT(s->triangle_blocks), ARGUMENT(t->hit_index))) &&
            (!r->with_hits ||
             SET_ARGUMENTS(r->kernels[RT_STAGE_HITS], status, ARGUMENT(tile), ARGUMENT(stride),
                           ARGUMENT(t->hit_index), ARGUMENT(t->hit_array), ARGUMENT(t->records)));
@@ -254,14 +177,15 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
         return false;
     const rt_effects effects = rt_effects_of(scene);
     char options[RT_PROGRAM_OPTIONS_SIZE];
-    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0};
+    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, r->with_occlusion};
     rt_program_options(&effects, &walk, rt_program_rounding(device), options);
     r->program = rt_program_build(r->context, device, options, status);
     if (!r->program)
         return false;
     r->times.program = rt_clock_seconds() - start;
     start = rt_clock_seconds();
-    if (!upload_scene(r, scene, bvh, status) || !make_tile_buffers(r, status))
+    if (!rt_device_scene_upload(&r->scene, r->context, r->queue, scene, bvh, status) ||
+        !make_tile_buffers(r, status))
         return false;
     r->times.upload = rt_clock_seconds() - start;
     return make_kernels(r, scene, status);
@@ -286,6 +210,7 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
     r->width = scene->width;
     r->height = scene->height;
     r->with_hits = options->with_hits;
+    r->with_occlusion = options->with_occlusion;
     const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
     r->stride = side * side;
     r->staging = malloc((size_t)r->stride * sizeof *r->staging);
@@ -316,10 +241,9 @@ void rt_renderer_free(rt_renderer *r)
     for (int i = 0; i < RT_STAGE_COUNT; ++i)
         if (r->kernels[i])
             clReleaseKernel(r->kernels[i]);
-    const cl_mem buffers[] = {r->scene.spheres,    r->scene.triangles, r->scene.materials_of,
-                              r->scene.normals_of, r->scene.normals,   r->scene.materials,
-                              r->scene.lights,     r->tile.rays,       r->tile.hit_index,
-                              r->tile.hit_array,   r->tile.colors,     r->tile.picture,
+    rt_device_scene_release(&r->scene);
+    const cl_mem buffers[] = {r->tile.rays,      r->tile.hit_index, r->tile.hit_slot,
+                              r->tile.hit_array, r->tile.colors,    r->tile.picture,
                               r->tile.records};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])

@@ -18,10 +18,11 @@
 #define RT_TILE_MAX 4096
 
 typedef struct rt_render_options {
-    int lanes;      /* rays a vector: 1, 4, 8, 16, or 0 for what suits the device */
-    int packet;     /* rays a work-item: a multiple of lanes up to 64, or 0 for the default */
-    int tile;       /* side of a tile in pixels, 1 to RT_TILE_MAX, or 0 for the default */
-    bool with_hits; /* whether rt_renderer_draw may be asked for hit records */
+    int lanes;           /* rays a vector: 1, 4, 8, 16, or 0 for what suits the device */
+    int packet;          /* rays a work-item: a multiple of lanes up to 64, or 0 for the default */
+    int tile;            /* side of a tile in pixels, 1 to RT_TILE_MAX, or 0 for the default */
+    bool with_hits;      /* whether rt_renderer_draw may be asked for hit records */
+    bool with_occlusion; /* whether rt_renderer_occluded may be called */
 } rt_render_options;
 
 enum rt_stage {

@@ -15,6 +15,15 @@
 #define RT_IMAGE_PIXELS_MAX (INT64_C(1) << 28)
 #define RT_SHININESS_MAX 1e6f
 
+/* Primitive indices count the spheres first, in file order, then the triangles. */
+typedef struct rt_sphere {
+    float cx, cy, cz, radius;
+} rt_sphere;
+
+typedef struct rt_triangle {
+    float ax, ay, az, bx, by, bz, cx, cy, cz;
+} rt_triangle;
+
 typedef struct rt_vec3 {
     float x, y, z;
 } rt_vec3;

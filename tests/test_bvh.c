@@ -88,7 +88,8 @@ static void trace(const rt_scene *scene, const rt_ray *rays, bool tree, const in
                   rt_hit *hits, uint8_t *occluded)
 {
     rt_status status = RT_STATUS_INIT;
-    const rt_render_options options = {.lanes = shape[0], .packet = shape[1]};
+    const rt_render_options options = {
+        .lanes = shape[0], .packet = shape[1], .with_occlusion = true};
     test_use_tree(tree);
     rt_renderer *renderer = test_renderer(scene, &options);
     test_use_tree(true);

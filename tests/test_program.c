@@ -25,11 +25,12 @@ static void options_name_what_the_scene_has(void **state)
     const rt_effects effects = {.has_triangles = true, .cull_sign = -1, .exponent_bits = 8};
     const rt_walk walk = {.lanes = 4, .packet = 64, .stack_size = 65};
     rt_program_options(&effects, &walk, RT_ROUNDING_DOUBLE, options);
-    assert_string_equal(options,
-                        "-cl-std=CL1.2 -DRT_LANES=4 -DRT_PACKET=64 -DRT_TREE=1 -DRT_STACK=256 "
-                        "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
-                        "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
-                        "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
+    assert_string_equal(
+        options,
+        "-cl-std=CL1.2 -DRT_LANES=4 -DRT_PACKET=64 -DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
+        "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
+        "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
+        "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
     rt_program_options(&effects, &walk, RT_ROUNDING_DEVICE, options);
     assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
 }

@@ -9,7 +9,7 @@
 bool bench_ours_make(bench_ours *ours, const rt_device *device, const rt_scene *scene, size_t rays,
                      rt_status *status)
 {
-    const rt_render_options options = {0};
+    const rt_render_options options = {.with_occlusion = true};
     *ours = (bench_ours){.capacity = rays};
     ours->hits = malloc(rays * sizeof *ours->hits);
     if (!ours->hits)
