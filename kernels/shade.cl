@@ -7,7 +7,7 @@
 
 /* x to a whole power by repeated squaring, lowest bit first: the same bits on every device. A
  * library's pow takes longer than tracing the ray. 0 to the power of 0 is 1. */
-float power_whole(float x, int exponent)
+INLINE float power_whole(float x, int exponent)
 {
     float result = 1.0f;
 #pragma unroll
@@ -18,7 +18,7 @@ float power_whole(float x, int exponent)
     return result;
 }
 
-float highlight(float cosine, int exponent, float shininess)
+INLINE float highlight(float cosine, int exponent, float shininess)
 {
     const float whole = power_whole(cosine, exponent);
 #if RT_SHININESS_FRACTION
@@ -30,7 +30,7 @@ float highlight(float cosine, int exponent, float shininess)
 }
 
 /* The factor that turns a normal to the side that `direction` comes from. */
-float side_toward(vec3 normal, vec3 direction)
+INLINE float side_toward(vec3 normal, vec3 direction)
 {
     return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;
 }
@@ -39,7 +39,7 @@ float side_toward(vec3 normal, vec3 direction)
 /* The geometric normal, unit. It is made from the edges as they are and made unit last: made unit
  * before the barycentric test it would shrink the triangle, left as it is it would turn highlights
  * white. */
-void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *normal)
+INLINE void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *normal)
 {
     const vec3 a = {t->ax[k], t->ay[k], t->az[k]};
     const vec3 e1 = {t->bx[k] - a.x, t->by[k] - a.y, t->bz[k] - a.z};
@@ -55,7 +55,7 @@ void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *normal)
 #if RT_SMOOTH
 /* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
  * the same side; leaves it where the vertex normals cancel. */
-void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
+INLINE void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
 {
     const float w = 1.0f - u - v;
     vec3 unit = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),

@@ -6,7 +6,7 @@ typedef struct pixel {
     int inside;      /* 0 where a block hangs over the tile's edge */
 } pixel;
 
-pixel tile_pixel(rt_tile tile)
+INLINE pixel tile_pixel(rt_tile tile)
 {
     const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;
     const int block = (int)get_group_id(0);

@@ -31,7 +31,7 @@ typedef struct vec3 {
 /* The power of two that brings the largest component of `v` to [1, 2), so that squares and products
  * of components neither overflow nor vanish; multiplying by it is exact. For vectors whose largest
  * component is zero, denormal or above 2^126 it is some finite power of two. */
-float moderating_factor(vec3 v)
+INLINE float moderating_factor(vec3 v)
 {
     const float largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
     const int exponent = as_int(largest) & 0x7f800000;
@@ -39,7 +39,7 @@ float moderating_factor(vec3 v)
 }
 
 /* Makes a vector unit, whatever its length; NaN for the zero vector. */
-void make_unit(vec3 *v)
+INLINE void make_unit(vec3 *v)
 {
     const vec3 moderate = SCALE(*v, moderating_factor(*v));
     *v = SCALE(moderate, RECIPROCAL_LENGTH(moderate));
