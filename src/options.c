@@ -60,7 +60,7 @@ void rt_options_help(FILE *out)
           "      --grammar        print the scene format as a table and exit\n"
           "  -h, --help           print this help and exit\n"
           "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
-          "      --lanes=N        rays a work-item traces: 1, 4, 8 or 16; by default the device's\n"
+          "      --lanes=N        rays in a vector when tracing: 1, 4, 8 or 16; by default the device's\n"
           "                       native float width, 1 on a GPU\n"
           "      --list-devices   list the OpenCL devices and exit\n"
           "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"

@@ -190,10 +190,9 @@ static void progress_in_a_file(void **state)
 static void progress_on_a_terminal(void **state)
 {
     (void)state;
-    if (run("command -v script >$T/which") != 0) {
-        print_message("there is no script(1): the terminal is not tested\n");
-        return;
-    }
+    /* Some sandboxes have no pseudo-terminals to lend. */
+    if (run("script -qec true $T/typescript </dev/null >$T/which") != 0)
+        skip();
     run("script -qec \"timeout -s INT 1.8 $RT --device scalar --size 8000x8000"
         " scenes/icecream.txt $T/t.png\" $T/typescript </dev/null >$T/which");
     char *text = test_read_file(test_path("typescript"), NULL);
