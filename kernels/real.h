@@ -64,6 +64,41 @@ INLINE int lanes_or16(int16 m)
 #define LESSER_N(a, b) select(b, a, (a) < (b))
 #define GREATER_N(a, b) select(b, a, (a) > (b))
 
+/* The least and the greatest of a vector's lanes. */
+#if RT_LANES == 1
+#define LEAST(v) (v)
+#define MOST(v) (v)
+#else
+INLINE float least4(float4 v)
+{
+    const float2 half_ = LESSER_N(v.lo, v.hi);
+    return LESSER_1(half_.x, half_.y);
+}
+INLINE float most4(float4 v)
+{
+    const float2 half_ = GREATER_N(v.lo, v.hi);
+    return GREATER_1(half_.x, half_.y);
+}
+INLINE float least8(float8 v)
+{
+    return least4(LESSER_N(v.lo, v.hi));
+}
+INLINE float most8(float8 v)
+{
+    return most4(GREATER_N(v.lo, v.hi));
+}
+INLINE float least16(float16 v)
+{
+    return least8(LESSER_N(v.lo, v.hi));
+}
+INLINE float most16(float16 v)
+{
+    return most8(GREATER_N(v.lo, v.hi));
+}
+#define LEAST(v) RT_PASTE(least, RT_LANES)(v)
+#define MOST(v) RT_PASTE(most, RT_LANES)(v)
+#endif
+
 typedef struct real3 {
     real x, y, z;
 } real3;
