@@ -91,5 +91,5 @@ void rt_device_scene_release(rt_device_scene *s)
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])
             clReleaseMemObject(buffers[i]);
-    *s = (rt_device_scene){NULL};
+    *s = (rt_device_scene){0};
 }
