@@ -9,7 +9,7 @@
 #include "bvh_split.h"
 #include "parallel.h"
 
-/* Primitives below which a rt_range is expected to fit into one node. */
+/* Primitives that fit into one node of full leaves. */
 #define NODE_PRIMITIVES ((size_t)RT_WIDTH * RT_LEAF_TARGET)
 
 /* What one task builds: a subtree with node indices of its own. */
@@ -108,7 +108,7 @@ static void set_child(rt_node *node, int i, const rt_box *bounds, int32_t child)
     node->child[i] = child;
 }
 
-/* Opens the rt_range of the largest area again and again, until there are RT_WIDTH or none is left
+/* Opens the range of the largest area again and again, until there are RT_WIDTH or none is left
  * that is worth it. One that fits into a single node of full leaves stays whole, unless it is all
  * there is: opened, it would leave nodes below half empty. */
 static int open_ranges(builder *b, rt_range children[RT_WIDTH])
@@ -138,7 +138,7 @@ static int open_ranges(builder *b, rt_range children[RT_WIDTH])
     return count;
 }
 
-/* Builds the subtree of a rt_range; returns its child code, or RT_LEAF with s->good false. */
+/* Builds the subtree of a range; returns its child code, or RT_LEAF with s->good false. */
 static int32_t build_range(builder *b, subtree *s, const rt_range *r)
 {
     if (rt_range_is_leaf(&b->references, r))
@@ -173,7 +173,7 @@ static void split_top(void *context, size_t i)
     rt_range_split(&b->references, &b->tops[i], b->halves[i]);
 }
 
-/* The root's children: rounds that split every rt_range there is, so that all threads have work
+/* The root's children: rounds that split every range there is, so that all threads have work
  * from the second round on. */
 static void build_tops(builder *b)
 {

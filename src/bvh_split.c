@@ -77,7 +77,7 @@ typedef struct bin {
     size_t count;
 } bin;
 
-/* A plane that a rt_range is split by: bins below `bin` of `bins` along `axis` go to the left. */
+/* A plane that a range is split by: bins below `bin` of `bins` along `axis` go to the left. */
 typedef struct plane {
     int axis, bin, bins;
     float cost;
@@ -165,7 +165,7 @@ static void swap(rt_reference *a, rt_reference *b)
     *b = t;
 }
 
-/* Parts a rt_range in place by a test, and takes both sides' bounds on the way. */
+/* Parts a range in place by a test, and takes both sides' bounds on the way. */
 #define PARTITION(refs, r, sides, goes_left)                                                       \
     do {                                                                                           \
         size_t low_ = (r)->begin, high_ = (r)->end;                                                \

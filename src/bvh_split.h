@@ -7,8 +7,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Primitives at which a rt_range is split no further: what a leaf's block holds. */
-#define RT_LEAF_TARGET 4
+#include "../kernels/types.h"
+
+/* Primitives at which a range is split no further: what a leaf's block holds. */
+#define RT_LEAF_TARGET RT_BLOCK_PRIMITIVES
 
 /* Four floats in one register, of which the last is idle (an extension of gcc and clang). */
 typedef float rt_four __attribute__((vector_size(16)));
@@ -40,10 +42,10 @@ typedef struct rt_references {
 /* All references, with their bounds. */
 rt_range rt_range_whole(const rt_references *refs);
 
-/* Whether a rt_range can be a leaf: few enough, and of one kind. */
+/* Whether a range can be a leaf: few enough, and of one kind. */
 bool rt_range_is_leaf(const rt_references *refs, const rt_range *rt_range);
 
-/* Splits a rt_range that is no leaf into two that are not empty; its references change places. */
+/* Splits a range that is no leaf into two that are not empty; its references change places. */
 void rt_range_split(const rt_references *refs, const rt_range *range, rt_range sides[2]);
 
 bool rt_reference_is_sphere(const rt_references *refs, const rt_reference *rt_reference);

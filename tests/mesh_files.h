@@ -1,31 +1,20 @@
 /* For the tests of the mesh readers: files are written to a temporary folder, read back, and
- * compared with what they say. Include after cmocka.h. */
+ * compared with what they say. */
 #ifndef RT_TEST_MESH_FILES_H
 #define RT_TEST_MESH_FILES_H
 
+#include "support.h"
+
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "mesh.h"
 
-static char folder[] = "/tmp/rt-test-mesh-XXXXXX";
 static char mesh_path[64]; /* of the file that is read */
-
-static inline void put(const char *name, const void *bytes, size_t length)
-{
-    char path[64];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, length, file), length);
-    assert_int_equal(fclose(file), 0);
-}
 
 static inline bool read_bytes(rt_mesh *mesh, const void *bytes, size_t length, rt_status *status)
 {
-    put("mesh", bytes, length);
+    test_write_file(mesh_path, bytes, length);
     *status = RT_STATUS_INIT;
     return rt_mesh_read(mesh, mesh_path, status);
 }
@@ -98,30 +87,12 @@ static inline void assert_floats(const float *found, const float *expected, size
 
 #define SQUARE "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\n"
 
-static inline void put_text(const char *name, const char *text)
-{
-    put(name, text, strlen(text));
-}
-
-static inline int make_folder(void **state)
+/* For cmocka_run_group_tests. */
+static inline int name_the_mesh(void **state)
 {
     (void)state;
-    if (!mkdtemp(folder))
-        return -1;
-    snprintf(mesh_path, sizeof mesh_path, "%s/mesh", folder);
+    snprintf(mesh_path, sizeof mesh_path, "%s/mesh", test_folder());
     return 0;
-}
-
-static inline int remove_folder(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"mesh", "my red.mtl", "b.mtl", "bad.mtl"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-        char path[64];
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    return rmdir(folder);
 }
 
 #endif

@@ -1,11 +1,4 @@
 #define _GNU_SOURCE
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "mesh_files.h"
 
 static void zero_normals_are_none(void **state)
@@ -63,5 +56,5 @@ int main(void)
         cmocka_unit_test(unreadable_file),
         cmocka_unit_test(transforms),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, name_the_mesh, NULL);
 }

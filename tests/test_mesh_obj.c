@@ -1,11 +1,4 @@
 #define _GNU_SOURCE
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "mesh_files.h"
 
 static void obj_variants(void **state)
@@ -102,10 +95,10 @@ static void obj_errors(void **state)
 static void mtl_colours(void **state)
 {
     (void)state;
-    put_text("my red.mtl",
-             "# c\nKd 1 1 1\nnewmtl red paint \r\nKa 0.25 0 0\r\nKd 2 -1 0.5\n\tKs .5\n"
-             "Ns 2.5\nillum 2\nmap_Kd x.png\nnewmtl plain\nnewmtl red paint\nKd 0 1 0");
-    put_text("b.mtl", "newmtl plain\nKd 1 1 1\nnewmtl blue\nKd 0 0 1\nNs 1e9\n");
+    test_write_text(test_path("my red.mtl"),
+                    "# c\nKd 1 1 1\nnewmtl red paint \r\nKa 0.25 0 0\r\nKd 2 -1 0.5\n\tKs .5\n"
+                    "Ns 2.5\nillum 2\nmap_Kd x.png\nnewmtl plain\nnewmtl red paint\nKd 0 1 0");
+    test_write_text(test_path("b.mtl"), "newmtl plain\nKd 1 1 1\nnewmtl blue\nKd 0 0 1\nNs 1e9\n");
     rt_mesh mesh = GOOD("mtllib my red.mtl\nmtllib b.mtl b.mtl\n" SQUARE
                         "f 1 2 3\nusemtl red paint\nf 1 2 3\nusemtl blue\nf 1 2 3 4\n");
     assert_int_equal(mesh.material_count, 7);
@@ -143,9 +136,9 @@ static void mtl_errors(void **state)
         rt_mesh mesh;
         rt_status status;
         char expected[256];
-        put_text("bad.mtl", cases[i][0]);
+        test_write_text(test_path("bad.mtl"), cases[i][0]);
         assert_false(read_bytes(&mesh, "mtllib bad.mtl\nv 0 0 0\n", 23, &status));
-        snprintf(expected, sizeof expected, "%s/bad.mtl%s\n", folder, cases[i][1]);
+        snprintf(expected, sizeof expected, "%s/bad.mtl%s\n", test_folder(), cases[i][1]);
         assert_string_equal(status.text, expected);
         assert_empty(&mesh);
         rt_status_clear(&status);
@@ -159,5 +152,5 @@ int main(void)
         cmocka_unit_test(obj_order),    cmocka_unit_test(obj_errors),
         cmocka_unit_test(mtl_colours),  cmocka_unit_test(mtl_errors),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, name_the_mesh, NULL);
 }

@@ -1,13 +1,6 @@
 /* One mesh is written in all three forms of PLY from one description, and damaged in many ways. */
 #define _GNU_SOURCE
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "mesh_files.h"
 
 /* A file as it is written: values go out as text, or as bytes in either order. */
@@ -300,5 +293,5 @@ int main(void)
         cmocka_unit_test(binary_errors), cmocka_unit_test(ascii_errors),
         cmocka_unit_test(header_errors),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, name_the_mesh, NULL);
 }

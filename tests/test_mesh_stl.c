@@ -1,12 +1,5 @@
 #define _GNU_SOURCE
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "mesh_files.h"
 
 #define FACETS 3
@@ -128,5 +121,5 @@ int main(void)
         cmocka_unit_test(text),
         cmocka_unit_test(text_errors),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, name_the_mesh, NULL);
 }
