@@ -31,9 +31,9 @@ PKG_CFLAGS = $(shell pkg-config --cflags $(LIBRARIES) stb cmocka)
 PKG_LIBS = $(shell pkg-config --libs $(LIBRARIES))
 
 SOURCES := $(wildcard src/*.c)
-# scalar.c is compiled twice, for float and for double; stb's code is compiled as it is.
-OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/scalar_double.o \
-           $(BUILD)/kernel_text.o
+# The scalar reference is compiled twice, for float and for double; stb's code is compiled as it is.
+OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/kernel_text.o \
+           $(patsubst src/%.c,$(BUILD)/%_double.o,$(wildcard src/scalar*.c))
 LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
 TESTS := $(patsubst tests/%.c,$(BUILD)/%,$(wildcard tests/test_*.c))
 TEST_HELPERS := $(patsubst tests/%.c,$(BUILD)/tests_%.o,$(filter-out tests/test_%.c,$(wildcard tests/*.c)))
@@ -59,7 +59,7 @@ $(BUILD)/%.o: src/%.c | $(BUILD)
 # picture's bytes are vectorised at -O3 only.
 $(BUILD)/stb_write.o: override CFLAGS += -O3 -fno-sanitize=undefined
 
-$(BUILD)/scalar_double.o: src/scalar.c | $(BUILD)
+$(BUILD)/%_double.o: src/%.c | $(BUILD)
 	$(call say,CC)
 	$(Q)$(CC) $(CFLAGS) -DRT_SCALAR_DOUBLE -c -o $@ $<
 

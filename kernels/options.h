@@ -1,6 +1,14 @@
 /* Every build option of the kernels, with its default. src/program.c is the only place that sets
  * them; a value that no kernel knows stops the build here, not in the middle of a stage. */
 
+/* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/accuracy.h). */
+#ifndef RT_ACCURACY
+#define RT_ACCURACY 1
+#endif
+#if RT_ACCURACY < 0 || RT_ACCURACY > 3
+#error "RT_ACCURACY must be from 0 to 3"
+#endif
+
 /* Rays that one work-item of the trace stage carries, each in its own lane of a vector type. */
 #ifndef RT_LANES
 #define RT_LANES 1

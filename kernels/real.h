@@ -9,6 +9,10 @@
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif
 
+/* What rays, hits and shading are computed in; the trace stage has a `real` of them in its lanes.
+ */
+typedef float number;
+
 #if RT_LANES == 1
 typedef float real;
 typedef int mask;

@@ -18,7 +18,7 @@ rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
 /* Hit records of four words a pixel: primitive index, then t, u, v. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_index,
-                __global const float *hit_array, __global int *records)
+                __global const number *hit_array, __global int *records)
 {
     const pixel p = tile_pixel(tile);
     if (!p.inside)

@@ -30,7 +30,7 @@ INLINE float highlight(float cosine, int exponent, float shininess)
 }
 
 /* The factor that turns a normal to the side that `direction` comes from. */
-INLINE float side_toward(vec3 normal, vec3 direction)
+INLINE number side_toward(vec3 normal, vec3 direction)
 {
     return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;
 }
@@ -55,21 +55,21 @@ INLINE void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *n
 #if RT_SMOOTH
 /* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
  * the same side; leaves it where the vertex normals cancel. */
-INLINE void smooth_normal(__global const float *n, float u, float v, vec3 *normal)
+INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *normal)
 {
-    const float w = 1.0f - u - v;
+    const number w = 1.0f - u - v;
     vec3 unit = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
                  fma(v, n[8], fma(u, n[5], w * n[2]))};
     make_unit(&unit);
-    const float side = DOT(unit, *normal);
+    const number side = DOT(unit, *normal);
     if (isfinite(side))
         *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
 }
 #endif
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_shade(const int stride, __global const float *rays, __global const int *hit_index,
-         __global const int *hit_slot, __global const float *hit_array,
+rt_shade(const int stride, __global const number *rays, __global const int *hit_index,
+         __global const int *hit_slot, __global const number *hit_array,
          __global const rt_sphere_block *spheres, const int sphere_count,
          __global const rt_triangle_block *triangles, __global const int *material_of,
          __global const int *normals_of, __global const float *normals,
@@ -86,7 +86,7 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
         const int slot = hit_slot[i];
         const vec3 origin = LOAD3(rays, stride, i);
         const vec3 direction = LOAD3(rays + RT_RAY_DX * step, stride, i);
-        const float t = hit_array[RT_HIT_T * step + i];
+        const number t = hit_array[RT_HIT_T * step + i];
         const vec3 point = {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
                             fma(t, direction.z, origin.z)};
         vec3 normal;
@@ -127,11 +127,11 @@ rt_shade(const int stride, __global const float *rays, __global const int *hit_i
             make_unit(&l);
             /* A light exactly at the point has no direction and gives nothing. */
             const float lit = isfinite(l.x) ? 1.0f : 0.0f;
-            const float n_dot_l = DOT(normal, l);
-            const float twice = 2.0f * n_dot_l;
+            const number n_dot_l = DOT(normal, l);
+            const number twice = 2.0f * n_dot_l;
             const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),
                                    fma(twice, normal.z, -l.z)};
-            const float r_dot_v = -DOT(mirrored, direction);
+            const number r_dot_v = -DOT(mirrored, direction);
             const float diffuse = lit * (n_dot_l > 0.0f ? n_dot_l : 0.0f);
             const float specular =
                 lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m.exponent, m.shininess);

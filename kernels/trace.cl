@@ -11,7 +11,7 @@ INLINE real finite_reciprocal(real d)
 
 /* Rays from the array; t is their tmax, or -infinity for rays that cannot hit anything because
  * something in them is not finite. */
-INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *h)
+INLINE void load_rays(__global const number *source, size_t step, rays *r, hits *h)
 {
     r->origin.x = LOAD_REAL(source + RT_RAY_OX * step);
     r->origin.y = LOAD_REAL(source + RT_RAY_OY * step);
@@ -42,7 +42,7 @@ INLINE void load_rays(__global const float *source, size_t step, rays *r, hits *
 
 /* Writes a group's hits; a miss has an infinite t, whatever tmax was. */
 INLINE void store_hits(const hits *h, size_t at, size_t step, __global int *hit_index,
-                       __global int *hit_slot, __global float *hit_array)
+                       __global int *hit_slot, __global number *hit_array)
 {
     const real t = SELECT(h->t, (real)INFINITY, MASK(h->index == (mask)RT_MISS));
     STORE_MASK(h->index, hit_index + at);
@@ -52,18 +52,18 @@ INLINE void store_hits(const hits *h, size_t at, size_t step, __global int *hit_
     STORE_REAL(DIVIDE(h->v, h->det), hit_array + at + RT_HIT_V * step);
 }
 
-INLINE void load_packet(__global const float *source, size_t step, packet *p)
+INLINE void load_packet(__global const number *source, size_t step, packet *p)
 {
     for (int g = 0; g < RT_GROUPS; ++g)
         load_rays(source + g * RT_LANES, step, &p->r[g], &p->h[g]);
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_trace(const int stride, __global const float *ray_array, __global const rt_node *nodes,
+rt_trace(const int stride, __global const number *ray_array, __global const rt_node *nodes,
          __global const int *order, __global const rt_sphere_block *spheres,
          const int sphere_blocks, __global const rt_triangle_block *triangles,
          const int triangle_blocks, __global int *hit_index, __global int *hit_slot,
-         __global float *hit_array)
+         __global number *hit_array)
 {
     const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
     const size_t step = (size_t)stride;
@@ -79,7 +79,7 @@ rt_trace(const int stride, __global const float *ray_array, __global const rt_no
 /* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
  * differ from device to device; whether there is one does not. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_occlude(const int stride, __global const float *ray_array, __global const rt_node *nodes,
+rt_occlude(const int stride, __global const number *ray_array, __global const rt_node *nodes,
            __global const int *order, __global const rt_sphere_block *spheres,
            const int sphere_blocks, __global const rt_triangle_block *triangles,
            const int triangle_blocks, __global int *hit_index)

@@ -36,6 +36,9 @@
 #define RT_NORMAL_COMPONENTS 9
 #define RT_COLOR_COMPONENTS 3
 
+/* A record of texture coordinates: u, v at a, b, c; (0, 0) is the lower left of a picture. */
+#define RT_UV_COMPONENTS 6
+
 /* Primitives go to the device in blocks of four, component by component, so that one ray can be
  * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is
  * place k of block i. A place that is not filled has zeros, which nothing hits. */
@@ -73,22 +76,43 @@ typedef struct rt_node {
  * a box that is met at a corner (Ize 2013). */
 #define RT_SLAB_MARGIN 1.0000005f
 
-/* Phong's coefficients; `exponent` is the shininess where it is whole, else -1. */
+/* Phong's coefficients, and what a surface does beside them.
+ *
+ * `exponent` is the shininess where it is whole, else -1. `reflect` and `transmit` weigh what a
+ * mirror ray and a refracted ray bring, each from 0 to 1 and 1 at most together; `ior` is the index
+ * of refraction against the outside, `absorb` the part of the light lost per unit of length inside
+ * (Beer). In every second cell of a lattice of cubes of side `cell`, 0 for none, ka and kd are
+ * multiplied by `checker`. `texture`, -1 for none, is the picture that they are multiplied by. */
 typedef struct rt_material {
     float ka_r, ka_g, ka_b;
     float kd_r, kd_g, kd_b;
     float ks_r, ks_g, ks_b;
     float shininess;
     int exponent;
+    float reflect, transmit, ior;
+    float absorb_r, absorb_g, absorb_b;
+    float checker_r, checker_g, checker_b, cell;
+    int texture;
+    int nearest; /* 1: the texel that holds (u, v), 0: bilinear */
     int padding;
 } rt_material;
+
+/* A picture: width * height texels from texel `first` on, row by row from the top, 8 bits each of
+ * red (lowest), green, blue, 8 bits unused. */
+typedef struct rt_texture {
+    int first, width, height;
+    int padding;
+} rt_texture;
 
 /* (x, y, z) is the position of a point light (w = 1) or the unit vector toward a directional one
  * (w = 0), so that xyz - w * point is the vector toward the light for both. */
 typedef struct rt_light {
     float x, y, z, w;
     float r, g, b;
-    int padding;
+    float radius; /* of a ball that gives the light; 0 for a point */
+    int shadow;   /* 1: what is between casts a shadow */
+    int samples;  /* shadow rays a point where radius > 0, else 1 */
+    int padding_0, padding_1;
 } rt_light;
 
 /* The direction of pixel (x, y) before it is made unit:

@@ -4,7 +4,7 @@
  * leaves aliasing intrinsics behind where it is inlined, which Oclgrind 21.10 does not know. */
 
 typedef struct vec3 {
-    float x, y, z;
+    number x, y, z;
 } vec3;
 
 #if RT_LANES == 1
@@ -31,9 +31,9 @@ typedef struct vec3 {
 /* The power of two that brings the largest component of `v` to [1, 2), so that squares and products
  * of components neither overflow nor vanish; multiplying by it is exact. For vectors whose largest
  * component is zero, denormal or above 2^126 it is some finite power of two. */
-INLINE float moderating_factor(vec3 v)
+INLINE number moderating_factor(vec3 v)
 {
-    const float largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    const number largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
     const int exponent = as_int(largest) & 0x7f800000;
     return as_float(0x7f000000 - min(exponent, 0x7e800000));
 }

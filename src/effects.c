@@ -26,13 +26,9 @@ rt_effects rt_effects_of(const rt_scene *scene)
 
 const char *rt_effect_name(enum rt_effect effect)
 {
-    switch (effect) {
-    case RT_EFFECT_CULLING:
-        return "culling";
-    case RT_EFFECT_SMOOTH_NORMALS:
-        return "smooth normals";
-    case RT_EFFECT_COUNT:
-        break;
-    }
-    return "none";
+    static const char *const names[RT_EFFECT_COUNT] = {
+        "culling",      "smooth normals", "checker",       "texture",       "hard shadows",
+        "soft shadows", "reflection",     "refraction",    "absorption",    "ambient occlusion",
+        "fog",          "gradient",       "anti-aliasing", "depth of field"};
+    return effect < RT_EFFECT_COUNT ? names[effect] : "none";
 }

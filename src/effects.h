@@ -6,7 +6,24 @@
 
 #include "scene.h"
 
-enum rt_effect { RT_EFFECT_CULLING, RT_EFFECT_SMOOTH_NORMALS, RT_EFFECT_COUNT };
+/* In the order of `--explain`. */
+enum rt_effect {
+    RT_EFFECT_CULLING,
+    RT_EFFECT_SMOOTH_NORMALS,
+    RT_EFFECT_CHECKER,
+    RT_EFFECT_TEXTURE,
+    RT_EFFECT_HARD_SHADOWS,
+    RT_EFFECT_SOFT_SHADOWS,
+    RT_EFFECT_REFLECTION,
+    RT_EFFECT_REFRACTION,
+    RT_EFFECT_ABSORPTION,
+    RT_EFFECT_OCCLUSION,
+    RT_EFFECT_FOG,
+    RT_EFFECT_GRADIENT,
+    RT_EFFECT_ANTIALIASING,
+    RT_EFFECT_DEPTH_OF_FIELD,
+    RT_EFFECT_COUNT
+};
 
 /* Everything that decides how the kernels are built for a scene. */
 typedef struct rt_effects {

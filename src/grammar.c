@@ -129,6 +129,12 @@ const rt_statement rt_statements[RT_STATEMENT_COUNT] = {
                            {CHOICE(NULL, "back|front", NULL, "the side that is not seen"),
                             CHOICE("winding", "ccw|cw", "ccw",
                                    "how a front's corners run as seen from the eye")}},
+    [RT_STATEMENT_ACCURACY] = {"accuracy",
+                               NULL,
+                               1,
+                               "the level of accuracy; --accuracy wins",
+                               {CHOICE(NULL, "fast|standard|robust|double", NULL,
+                                       "standard if not given")}},
 };
 
 size_t rt_statement_field_count(const rt_statement *statement)

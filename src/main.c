@@ -89,6 +89,8 @@ static bool read_scene(run *r)
         r->scene.width = r->options.width;
         r->scene.height = r->options.height;
     }
+    if (r->options.has_accuracy)
+        r->scene.accuracy = r->options.accuracy;
     r->stats.parse = rt_clock_seconds() - start;
     if (r->options.quiet)
         rt_status_clear(&r->status);
@@ -237,7 +239,9 @@ static bool write_stats(run *r)
     if (!r->options.stats)
         return true;
     rt_stats *s = &r->stats;
-    s->accuracy = r->options.target == RT_TARGET_SCALAR_DOUBLE ? "reference" : "standard";
+    s->accuracy = r->options.target == RT_TARGET_SCALAR_DOUBLE
+                      ? "reference"
+                      : rt_accuracy_name(r->scene.accuracy);
     s->width = r->image.width;
     s->height = r->image.height;
     s->spheres = r->scene.sphere_count;

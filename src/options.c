@@ -14,6 +14,7 @@ enum {
     OPTION_QUIET = 'q',
     OPTION_HELP = 'h',
     OPTION_ACCEL = 256,
+    OPTION_ACCURACY,
     OPTION_LIST,
     OPTION_LANES,
     OPTION_TILE,
@@ -27,6 +28,7 @@ enum {
 };
 
 static const struct option long_options[] = {{"accel", required_argument, NULL, OPTION_ACCEL},
+                                             {"accuracy", required_argument, NULL, OPTION_ACCURACY},
                                              {"device", required_argument, NULL, OPTION_DEVICE},
                                              {"grammar", no_argument, NULL, OPTION_GRAMMAR},
                                              {"help", no_argument, NULL, OPTION_HELP},
@@ -52,6 +54,8 @@ void rt_options_help(FILE *out)
           "\n"
           "      --accel=HOW      bvh, the default, or none: try every primitive with every ray;\n"
           "                       the picture is the same\n"
+          "      --accuracy=LEVEL fast, standard (the default), robust or double, whatever the\n"
+          "                       scene says\n"
           "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
           "                       accelerator, any part of a name, scalar (plain C in float) or\n"
           "                       scalar-double; several with commas between them, or all,\n"
@@ -145,6 +149,10 @@ static bool read_option(rt_options *options, int code, const char *value, rt_sta
         options->accel = strcmp(value, "none") == 0 ? RT_ACCEL_NONE : RT_ACCEL_BVH;
         return options->accel == RT_ACCEL_NONE || strcmp(value, "bvh") == 0 ||
                fail(status, "--accel", value, "bvh or none");
+    case OPTION_ACCURACY:
+        options->has_accuracy = true;
+        return rt_accuracy_of_name(value, &options->accuracy) ||
+               fail(status, "--accuracy", value, "fast, standard, robust or double");
     case OPTION_DEVICE:
         read_device(options, value);
         return *value || fail(status, "--device", value, "the name or index of a device");

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "accuracy.h"
 #include "image.h"
 #include "status.h"
 
@@ -33,6 +34,8 @@ typedef struct rt_options {
     enum rt_image_format format;
     enum rt_target target;
     enum rt_accel accel;
+    bool has_accuracy; /* else the scene decides */
+    enum rt_accuracy accuracy;
     const char *device; /* selectors with commas between them, or NULL for the default */
     const char *hits, *stats;
     int width, height;              /* 0 where the scene decides */

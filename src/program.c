@@ -28,15 +28,18 @@ void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_
                         char *options)
 {
     snprintf(options, RT_PROGRAM_OPTIONS_SIZE,
-             "-cl-std=CL1.2%s -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d -DRT_STACK=%d "
+             "-cl-std=CL1.2%s%s -DRT_ACCURACY=%d -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d "
+             "-DRT_STACK=%d "
              "-DRT_OCCLUSION=%d "
              "-DRT_SPHERES=%d -DRT_TRIANGLES=%d -DRT_CULL=%d "
              "-DRT_SMOOTH=%d -DRT_SHININESS_BITS=%d -DRT_SHININESS_FRACTION=%d -DRT_ROUNDING=%d",
              rounding == RT_ROUNDING_DEVICE ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
-             walk->lanes, walk->packet, walk->stack_size > 0, round_stack(walk->stack_size),
-             walk->with_occlusion, effects->has_spheres, effects->has_triangles, effects->cull_sign,
-             effects->on[RT_EFFECT_SMOOTH_NORMALS], effects->exponent_bits,
-             effects->has_fractional_exponent, (int)rounding);
+             walk->accuracy == RT_ACCURACY_FAST ? " -cl-fast-relaxed-math -cl-denorms-are-zero"
+                                                : "",
+             (int)walk->accuracy, walk->lanes, walk->packet, walk->stack_size > 0,
+             round_stack(walk->stack_size), walk->with_occlusion, effects->has_spheres,
+             effects->has_triangles, effects->cull_sign, effects->on[RT_EFFECT_SMOOTH_NORMALS],
+             effects->exponent_bits, effects->has_fractional_exponent, (int)rounding);
 }
 
 /* The files of RT_KERNELS, each behind a #line like the embedded ones; NULL after an error. */

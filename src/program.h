@@ -23,6 +23,7 @@ typedef struct rt_walk {
     int lanes, packet;
     size_t stack_size;   /* entries that the tree needs at most; 0 for no tree */
     bool with_occlusion; /* whether any hit is asked for too */
+    enum rt_accuracy accuracy;
 } rt_walk;
 
 /* Writes the compiler options of a variant to options[0..RT_PROGRAM_OPTIONS_SIZE). */

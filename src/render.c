@@ -2,45 +2,10 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "cl.h"
 #include "clock.h"
-#include "device_scene.h"
 #include "program.h"
-
-/* Tiles whose commands may be in the queue at a time: one runs while the host prepares another. */
-#define TILES_IN_FLIGHT 2
-/* Commands of a tile that are timed: the stages, and the reads of colours and of hits. */
-#define EVENTS_PER_TILE (RT_STAGE_COUNT + 2)
-
-enum event_slot { EVENT_READ_COLORS = RT_STAGE_COUNT, EVENT_READ_HITS };
-
-typedef struct flight {
-    cl_event events[EVENTS_PER_TILE]; /* NULL where there was no such command */
-    bool busy;
-} flight;
-
-/* Arrays between the stages, for one tile. */
-typedef struct tile_buffers {
-    cl_mem rays, hit_index, hit_slot, hit_array, colors, picture, records;
-} tile_buffers;
-
-struct rt_renderer {
-    cl_context context;
-    cl_command_queue queue;
-    cl_program program;
-    cl_kernel kernels[RT_STAGE_COUNT];
-    rt_device_scene scene;
-    tile_buffers tile;
-    cl_int stride; /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
-    int tile_side, lanes, packet;
-    int width, height;
-    bool with_hits, with_occlusion;
-    float *staging; /* owned: stride values, for rt_renderer_trace */
-    flight flights[TILES_IN_FLIGHT];
-    rt_render_times times;
-};
+#include "render_state.h"
 
 static const struct {
     const char *name, *kernel;
@@ -177,7 +142,8 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
         return false;
     const rt_effects effects = rt_effects_of(scene);
     char options[RT_PROGRAM_OPTIONS_SIZE];
-    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, r->with_occlusion};
+    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, r->with_occlusion,
+                          scene->accuracy};
     rt_program_options(&effects, &walk, rt_program_rounding(device), options);
     r->program = rt_program_build(r->context, device, options, status);
     if (!r->program)
@@ -258,10 +224,8 @@ void rt_renderer_free(rt_renderer *r)
     free(r);
 }
 
-/* One stage over `rays` rays, a multiple of RT_BLOCK_RAYS. A work-group is a block of rays at every
- * lane width; the kernels say so themselves too. */
-static bool launch(rt_renderer *r, enum rt_stage stage, size_t rays, cl_event *event,
-                   rt_status *status)
+bool rt_renderer_launch(rt_renderer *r, enum rt_stage stage, size_t rays, cl_event *event,
+                        rt_status *status)
 {
     const size_t rays_per_item =
         stage == RT_STAGE_TRACE || stage == RT_STAGE_OCCLUDE ? (size_t)r->packet : 1;
@@ -302,7 +266,7 @@ static bool start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, fli
         return false;
     for (int stage = 0; stage < RT_STAGE_COUNT; ++stage)
         if (stage != RT_STAGE_OCCLUDE && (stage != RT_STAGE_HITS || hits) &&
-            !launch(r, (enum rt_stage)stage, rays, &f->events[stage], status))
+            !rt_renderer_launch(r, (enum rt_stage)stage, rays, &f->events[stage], status))
             return false;
     if (!read_tile(r, r->tile.picture, tile, image->rgb, 3 * sizeof *image->rgb,
                    &f->events[EVENT_READ_COLORS], status) ||
@@ -312,8 +276,7 @@ static bool start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, fli
     return RT_CL(clFlush(r->queue), status);
 }
 
-/* Waits for a tile and takes its times. */
-static bool finish_tile(rt_renderer *r, flight *f, rt_status *status)
+bool rt_renderer_finish(rt_renderer *r, flight *f, rt_status *status)
 {
     if (!f->busy)
         return true;
@@ -335,7 +298,7 @@ static bool finish_all(rt_renderer *r, rt_status *status)
 {
     bool good = true;
     for (int i = 0; i < TILES_IN_FLIGHT; ++i)
-        good = finish_tile(r, &r->flights[i], status) && good;
+        good = rt_renderer_finish(r, &r->flights[i], status) && good;
     return good;
 }
 
@@ -350,7 +313,7 @@ bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, co
         flight *f = &r->flights[tiles->takers > 1 && i == 1 ? 0 : i % TILES_IN_FLIGHT];
         const bool landed = f->busy;
         rt_tile tile;
-        good = finish_tile(r, f, status);
+        good = rt_renderer_finish(r, f, status);
         if (good && landed)
             rt_tiles_finish(&taker);
         if (!good || !rt_tiles_take(&taker, &tile))
@@ -367,97 +330,4 @@ bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt
     rt_tiles tiles;
     rt_tiles_init(&tiles, r->width, r->height, r->tile_side, 1);
     return rt_renderer_draw_tiles(r, &tiles, image, watch, status);
-}
-
-/* Component `c` of `count` rays; the rest of the last block ends before it begins. */
-static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, size_t padded,
-                            size_t c, rt_status *status)
-{
-    for (size_t i = 0; i < padded; ++i) {
-        const rt_ray *ray = &rays[i < count ? i : count - 1];
-        r->staging[i] = c < RT_RAY_DX      ? ray->origin[c]
-                        : c < RT_RAY_TMIN  ? ray->direction[c - RT_RAY_DX]
-                        : c == RT_RAY_TMIN ? ray->tmin
-                        : i < count        ? ray->tmax
-                                           : -1.0f;
-    }
-    return RT_CL(clEnqueueWriteBuffer(r->queue, r->tile.rays, CL_TRUE,
-                                      c * (size_t)r->stride * sizeof *r->staging,
-                                      padded * sizeof *r->staging, r->staging, 0, NULL, NULL),
-                 status);
-}
-
-/* Uploads rays and runs a stage over them. */
-static bool trace_stage(rt_renderer *r, enum rt_stage stage, const rt_ray *rays, size_t count,
-                        rt_status *status)
-{
-    const size_t padded = (count + RT_BLOCK_RAYS - 1) / RT_BLOCK_RAYS * RT_BLOCK_RAYS;
-    for (size_t c = 0; c < RT_RAY_COMPONENTS; ++c)
-        if (!stage_component(r, rays, count, padded, c, status))
-            return false;
-    flight *f = &r->flights[0];
-    f->busy = true;
-    return launch(r, stage, padded, &f->events[stage], status) && finish_tile(r, f, status);
-}
-
-/* Reads `count` values of a buffer, from value `first` on, to r->staging. */
-static bool read_values(rt_renderer *r, cl_mem buffer, size_t first, size_t count,
-                        rt_status *status)
-{
-    const size_t size = sizeof *r->staging;
-    return RT_CL(clEnqueueReadBuffer(r->queue, buffer, CL_TRUE, first * size, count * size,
-                                     r->staging, 0, NULL, NULL),
-                 status);
-}
-
-/* The primitive index that lies in value i of r->staging as bits. */
-static int32_t staged_index(const rt_renderer *r, size_t i)
-{
-    int32_t index;
-    memcpy(&index, &r->staging[i], sizeof index);
-    return index;
-}
-
-static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
-                       rt_status *status)
-{
-    if (!trace_stage(r, RT_STAGE_TRACE, rays, count, status) ||
-        !read_values(r, r->tile.hit_index, 0, count, status))
-        return false;
-    for (size_t i = 0; i < count; ++i)
-        hits[i].primitive = staged_index(r, i);
-    for (size_t c = 0; c < RT_HIT_COMPONENTS; ++c) {
-        if (!read_values(r, r->tile.hit_array, c * (size_t)r->stride, count, status))
-            return false;
-        for (size_t i = 0; i < count; ++i)
-            *(c == RT_HIT_T ? &hits[i].t : c == RT_HIT_U ? &hits[i].u : &hits[i].v) = r->staging[i];
-    }
-    return true;
-}
-
-bool rt_renderer_trace(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
-                       rt_status *status)
-{
-    const size_t most = (size_t)r->stride;
-    for (size_t done = 0; done < count; done += most) {
-        const size_t part = count - done < most ? count - done : most;
-        if (!trace_part(r, rays + done, part, hits + done, status))
-            return false;
-    }
-    return true;
-}
-
-bool rt_renderer_occluded(rt_renderer *r, const rt_ray *rays, size_t count, uint8_t *occluded,
-                          rt_status *status)
-{
-    const size_t most = (size_t)r->stride;
-    for (size_t done = 0; done < count; done += most) {
-        const size_t part = count - done < most ? count - done : most;
-        if (!trace_stage(r, RT_STAGE_OCCLUDE, rays + done, part, status) ||
-            !read_values(r, r->tile.hit_index, 0, part, status))
-            return false;
-        for (size_t i = 0; i < part; ++i)
-            occluded[done + i] = staged_index(r, i) != RT_MISS;
-    }
-    return true;
 }

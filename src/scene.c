@@ -10,9 +10,12 @@ void rt_scene_init(rt_scene *scene)
 {
     *scene = (rt_scene){0};
     scene->width = scene->height = 512;
+    scene->accuracy = RT_ACCURACY_STANDARD;
     scene->camera.at = (rt_vec3){0.0f, 0.0f, -1.0f};
     scene->camera.up = (rt_vec3){0.0f, 1.0f, 0.0f};
     scene->camera.vfov = 90.0f;
+    scene->samples = 1;
+    scene->depth = 5;
 }
 
 void rt_scene_clear(rt_scene *scene)
@@ -28,6 +31,10 @@ void rt_scene_clear(rt_scene *scene)
     free(scene->triangle_materials);
     free(scene->triangle_normals);
     free(scene->normals);
+    free(scene->triangle_uvs);
+    free(scene->uvs);
+    free(scene->textures);
+    free(scene->texels);
     *scene = (rt_scene){0};
 }
 
@@ -128,7 +135,9 @@ rt_material rt_material_make(const float ka[3], const float kd[3], const float k
                          .ks_g = ks[1],
                          .ks_b = ks[2],
                          .shininess = shininess,
-                         .exponent = whole ? (int)shininess : -1};
+                         .exponent = whole ? (int)shininess : -1,
+                         .ior = 1.5f,
+                         .texture = -1};
 }
 
 static void cross(double out[3], const double a[3], const double b[3])

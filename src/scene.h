@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "../kernels/types.h"
+#include "accuracy.h"
 #include "status.h"
 
 #define RT_IMAGE_SIDE_MAX 65535
@@ -36,16 +37,29 @@ typedef struct rt_place {
 
 typedef struct rt_camera {
     rt_vec3 from, at, up;
-    float vfov; /* degrees, whole angle from bottom to top, in (0, 180) */
+    float vfov;     /* degrees, whole angle from bottom to top, in (0, 180) */
+    float aperture; /* diameter of the lens; 0 for a pinhole */
+    float focus;    /* distance along the view of what is sharp; 0 for that of `at` */
 } rt_camera;
 
 enum rt_cull { RT_CULL_NONE, RT_CULL_BACK, RT_CULL_FRONT };
 enum rt_winding { RT_WINDING_CCW, RT_WINDING_CW };
+enum rt_filter { RT_FILTER_BOX, RT_FILTER_TENT };
 
 typedef struct rt_scene {
     int width, height; /* pixels */
+    enum rt_accuracy accuracy;
+    int samples; /* rays a pixel, 1 up */
+    enum rt_filter filter;
+    int depth; /* mirror and refracted rays in a row, at most */
     rt_camera camera;
     rt_vec3 background, ambient;
+    bool has_gradient;      /* the background goes from `background` to `background_top` */
+    rt_vec3 background_top; /* opposite to and along the camera's `up` */
+    rt_vec3 fog;
+    float fog_density;     /* per unit of length; 0 for none */
+    int occlusion_samples; /* 0 for none */
+    float occlusion_distance;
     enum rt_cull cull;
     enum rt_winding winding;
     rt_place cull_place, smooth_place;
@@ -59,11 +73,18 @@ typedef struct rt_scene {
     int32_t *triangle_materials;
     int32_t *triangle_normals; /* record in `normals`, or -1 */
     float *normals;            /* RT_NORMAL_COMPONENTS a record: na, nb, nc */
+    int32_t *triangle_uvs;     /* record in `uvs`, or -1 */
+    float *uvs;                /* RT_UV_COMPONENTS a record */
+    rt_texture *textures;
+    uint32_t *texels; /* of all textures */
     size_t light_count, light_capacity;
     size_t material_count, material_capacity;
     size_t sphere_count, sphere_capacity;
     size_t triangle_count, triangle_capacity;
     size_t normal_count, normal_capacity; /* records */
+    size_t uv_count, uv_capacity;         /* records */
+    size_t texture_count, texture_capacity;
+    size_t texel_count, texel_capacity;
 
     char **files; /* names of the files read, in order of opening */
     size_t file_count, file_capacity;

@@ -127,7 +127,14 @@ static bool apply_light(parser *p, const rt_line *l, bool is_point)
 {
     const rt_vec3 place = vector_of(&l->values[0], (rt_vec3){0.0f, 0.0f, 0.0f});
     const rt_vec3 color = vector_of(&l->values[1], (rt_vec3){1.0f, 1.0f, 1.0f});
-    rt_light light = {place.x, place.y, place.z, 1.0f, color.x, color.y, color.z, 0};
+    rt_light light = {.x = place.x,
+                      .y = place.y,
+                      .z = place.z,
+                      .w = 1.0f,
+                      .r = color.x,
+                      .g = color.y,
+                      .b = color.z,
+                      .samples = 1};
     if (!is_point) {
         const double x = (double)place.x, y = (double)place.y, z = (double)place.z;
         const double inverse = -1.0 / hypot(hypot(x, y), z);
@@ -268,6 +275,9 @@ static bool apply(parser *p, rt_source *src, const rt_line *l)
         return apply_mesh(p, src, l);
     case RT_STATEMENT_CULL:
         return apply_cull(p, src, l);
+    case RT_STATEMENT_ACCURACY:
+        p->scene->accuracy = (enum rt_accuracy)l->values[0].choice;
+        return true;
     case RT_STATEMENT_COUNT:
         break;
     }

@@ -23,14 +23,14 @@ static void options_name_what_the_scene_has(void **state)
     (void)state;
     char options[RT_PROGRAM_OPTIONS_SIZE];
     const rt_effects effects = {.has_triangles = true, .cull_sign = -1, .exponent_bits = 8};
-    const rt_walk walk = {.lanes = 4, .packet = 64, .stack_size = 65};
+    const rt_walk walk = {
+        .lanes = 4, .packet = 64, .stack_size = 65, .accuracy = RT_ACCURACY_STANDARD};
     rt_program_options(&effects, &walk, RT_ROUNDING_DOUBLE, options);
-    assert_string_equal(
-        options,
-        "-cl-std=CL1.2 -DRT_LANES=4 -DRT_PACKET=64 -DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
-        "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
-        "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
-        "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
+    assert_string_equal(options, "-cl-std=CL1.2 -DRT_ACCURACY=1 -DRT_LANES=4 -DRT_PACKET=64 "
+                                 "-DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
+                                 "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
+                                 "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
+                                 "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
     rt_program_options(&effects, &walk, RT_ROUNDING_DEVICE, options);
     assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
 }
@@ -51,6 +51,7 @@ static void unknown_variants_do_not_build(void **state)
     (void)state;
     static const char *const bad[] = {"-DRT_LANES=3",
                                       "-DRT_LANES=2",
+                                      "-DRT_ACCURACY=4",
                                       "-DRT_SPHERES=2",
                                       "-DRT_CULL=2",
                                       "-DRT_CULL=-2",

@@ -59,9 +59,9 @@ static void every_statement(void **state)
     assert_vector(s.background, 0.25f, 0.5f, 3);
     assert_vector(s.ambient, 0.125f, 0, 2);
     assert_int_equal(s.light_count, 3);
-    const rt_light lights[3] = {{-1, 2.5f, 1000, 1, 4, 5, 6, 0},
-                                {-0.0f, 1, -0.0f, 0, 0.5f, 0.25f, 0.125f, 0},
-                                {0, 0, 0, 1, 1, 1, 1, 0}};
+    const rt_light lights[3] = {{-1, 2.5f, 1000, 1, 4, 5, 6, 0, 0, 1, 0, 0},
+                                {-0.0f, 1, -0.0f, 0, 0.5f, 0.25f, 0.125f, 0, 0, 1, 0, 0},
+                                {0, 0, 0, 1, 1, 1, 1, 0, 0, 1, 0, 0}};
     assert_memory_equal(s.lights, lights, sizeof lights);
     assert_int_equal(s.material_count, 2);
     assert_true(s.materials[0].ka_g == 0.2f && s.materials[0].kd_b == 0.6f &&

@@ -1,0 +1,106 @@
+/* What the files of the scalar reference share: its number type, its vectors, its rays. Each file
+ * is compiled twice, as it is for float and with RT_SCALAR_DOUBLE for double. Every multiply-add is
+ * a written fma and contraction is off, so the float version's bits are the same everywhere. */
+#ifndef RT_SCALAR_REAL_H
+#define RT_SCALAR_REAL_H
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+
+#include "scalar.h"
+
+#ifdef RT_SCALAR_DOUBLE
+typedef double real;
+#define NAME(verb) rt_scalar_double_##verb
+#define FMA fma
+#define SQRT sqrt
+#define POW pow
+#define FABS fabs
+#define FMAX fmax
+#define FMIN fmin
+#define REAL_MAX DBL_MAX
+#define LDEXP ldexp
+#define ILOGB ilogb
+#else
+typedef float real;
+#define NAME(verb) rt_scalar_float_##verb
+#define FMA fmaf
+#define SQRT sqrtf
+#define POW powf
+#define FABS fabsf
+#define FMAX fmaxf
+#define FMIN fminf
+#define REAL_MAX FLT_MAX
+#define LDEXP ldexpf
+#define ILOGB ilogbf
+#endif
+
+typedef struct vec {
+    real x, y, z;
+} vec;
+
+typedef struct ray {
+    vec origin, direction;
+    real tmin, tmax;
+} ray;
+
+typedef struct hit {
+    int primitive;
+    real t, u, v;
+} hit;
+
+static inline vec vec_of(float x, float y, float z)
+{
+    return (vec){(real)x, (real)y, (real)z};
+}
+
+static inline real dot(vec a, vec b)
+{
+    return FMA(a.x, b.x, FMA(a.y, b.y, a.z * b.z));
+}
+
+static inline vec minus(vec a, vec b)
+{
+    return (vec){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static inline vec times(vec a, real s)
+{
+    return (vec){a.x * s, a.y * s, a.z * s};
+}
+
+/* a * s + b */
+static inline vec add_scaled(vec a, real s, vec b)
+{
+    return (vec){FMA(a.x, s, b.x), FMA(a.y, s, b.y), FMA(a.z, s, b.z)};
+}
+
+static inline vec cross(vec a, vec b)
+{
+    return (vec){FMA(a.y, b.z, -(a.z * b.y)), FMA(a.z, b.x, -(a.x * b.z)),
+                 FMA(a.x, b.y, -(a.y * b.x))};
+}
+
+/* `a` times the power of two that brings its largest component to [1, 2): exact, and products of
+ * what comes out neither overflow nor vanish. */
+static inline vec moderate(vec a)
+{
+    const real largest = FMAX(FABS(a.x), FMAX(FABS(a.y), FABS(a.z)));
+    if (!(largest > 0 && isfinite(largest)))
+        return a;
+    const int k = -ILOGB(largest);
+    return (vec){LDEXP(a.x, k), LDEXP(a.y, k), LDEXP(a.z, k)};
+}
+
+/* NaN for the zero vector. */
+static inline vec unit(vec a)
+{
+    const vec m = moderate(a);
+    return times(m, (real)1 / SQRT(dot(m, m)));
+}
+
+/* scalar_trace.c: the nearest hit; t is infinite where there is none. */
+hit NAME(closest)(const rt_scene *scene, const ray *r);
+
+#endif
