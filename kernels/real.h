@@ -12,6 +12,7 @@
 /* What rays, hits and shading are computed in; the trace stage has a `real` of them in its lanes.
  */
 typedef float number;
+#define RT_HALF_ULP 0x1p-24f /* of a number at 1 */
 
 #if RT_LANES == 1
 typedef float real;

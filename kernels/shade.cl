@@ -29,44 +29,6 @@ INLINE float highlight(float cosine, int exponent, float shininess)
 #endif
 }
 
-/* The factor that turns a normal to the side that `direction` comes from. */
-INLINE number side_toward(vec3 normal, vec3 direction)
-{
-    return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;
-}
-
-#if RT_TRIANGLES
-/* The geometric normal, unit. It is made from the edges as they are and made unit last: made unit
- * before the barycentric test it would shrink the triangle, left as it is it would turn highlights
- * white. */
-INLINE void geometric_normal(__global const rt_triangle_block *t, int k, vec3 *normal)
-{
-    const vec3 a = {t->ax[k], t->ay[k], t->az[k]};
-    const vec3 e1 = {t->bx[k] - a.x, t->by[k] - a.y, t->bz[k] - a.z};
-    const vec3 e2 = {t->cx[k] - a.x, t->cy[k] - a.y, t->cz[k] - a.z};
-    /* Each edge by a power of two of its own, or the product of long ones would overflow. */
-    const vec3 f1 = SCALE(e1, moderating_factor(e1));
-    const vec3 f2 = SCALE(e2, moderating_factor(e2));
-    *normal = CROSS(vec3, f1, f2);
-    make_unit(normal);
-}
-#endif
-
-#if RT_SMOOTH
-/* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
- * the same side; leaves it where the vertex normals cancel. */
-INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *normal)
-{
-    const number w = 1.0f - u - v;
-    vec3 unit = {fma(v, n[6], fma(u, n[3], w * n[0])), fma(v, n[7], fma(u, n[4], w * n[1])),
-                 fma(v, n[8], fma(u, n[5], w * n[2]))};
-    make_unit(&unit);
-    const number side = DOT(unit, *normal);
-    if (isfinite(side))
-        *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
-}
-#endif
-
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_shade(const int stride, __global const number *rays, __global const int *hit_index,
          __global const int *hit_slot, __global const number *hit_array,
@@ -87,36 +49,30 @@ rt_shade(const int stride, __global const number *rays, __global const int *hit_
         const vec3 origin = LOAD3(rays, stride, i);
         const vec3 direction = LOAD3(rays + RT_RAY_DX * step, stride, i);
         const number t = hit_array[RT_HIT_T * step + i];
-        const vec3 point = {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
-                            fma(t, direction.z, origin.z)};
-        vec3 normal;
+        const int place = slot % RT_BLOCK_PRIMITIVES;
+        surface s;
+        s.point = (vec3){fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
+                         fma(t, direction.z, origin.z)};
 #if RT_SPHERES
-        if (index < sphere_count) {
-            __global const rt_sphere_block *block = spheres + slot / RT_BLOCK_PRIMITIVES;
-            const int place = slot % RT_BLOCK_PRIMITIVES;
-            const vec3 center = {block->cx[place], block->cy[place], block->cz[place]};
-            normal = SUB(vec3, point, center);
-            make_unit(&normal);
-            normal = SCALE(normal, side_toward(normal, direction));
-        }
+        if (index < sphere_count)
+            sphere_surface(spheres + slot / RT_BLOCK_PRIMITIVES, place, direction, &s);
 #endif
 #if RT_SPHERES && RT_TRIANGLES
         else
 #endif
 #if RT_TRIANGLES
         {
-            geometric_normal(triangles + slot / RT_BLOCK_PRIMITIVES, slot % RT_BLOCK_PRIMITIVES,
-                             &normal);
-            normal = SCALE(normal, side_toward(normal, direction));
+            const number u = hit_array[RT_HIT_U * step + i];
+            const number v = hit_array[RT_HIT_V * step + i];
+            triangle_surface(triangles + slot / RT_BLOCK_PRIMITIVES, place, u, v, direction, &s);
 #if RT_SMOOTH
             const int record = normals_of[index - sphere_count];
             if (record >= 0)
-                smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS,
-                              hit_array[RT_HIT_U * step + i], hit_array[RT_HIT_V * step + i],
-                              &normal);
+                smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s.normal);
 #endif
         }
 #endif
+        const vec3 point = s.point, normal = s.normal;
         const rt_material m = materials[material_of[index]];
         color = (vec3){surround.ambient_r * m.ka_r, surround.ambient_g * m.ka_g,
                        surround.ambient_b * m.ka_b};

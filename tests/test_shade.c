@@ -276,7 +276,9 @@ static void a_long_normal_would_turn_highlights_white(void **state)
 {
     (void)state;
     assert_true(highlight_is_of_its_size());
-    assert_false(holds_with(highlight_is_of_its_size, "shade.cl", "make_unit(normal);", ""));
+    assert_false(holds_with(highlight_is_of_its_size, "surface.cl",
+                            "CROSS(vec3, f1, f2);\n    make_unit(&normal);",
+                            "CROSS(vec3, f1, f2);"));
 }
 
 static void swapped_edges_would_turn_the_normal_away(void **state)
@@ -285,9 +287,9 @@ static void swapped_edges_would_turn_the_normal_away(void **state)
     assert_true(lit_from_the_front());
     /* Turning normals toward the ray is what makes the order of the edges harmless ... */
     assert_true(
-        holds_with(lit_from_the_front, "shade.cl", "CROSS(vec3, f1, f2)", "CROSS(vec3, f2, f1)"));
+        holds_with(lit_from_the_front, "surface.cl", "CROSS(vec3, f1, f2)", "CROSS(vec3, f2, f1)"));
     /* ... and without it either order is wrong for one of the two windings. */
-    assert_false(holds_with(lit_from_the_front, "shade.cl",
+    assert_false(holds_with(lit_from_the_front, "surface.cl",
                             "return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;",
                             "return 1.0f;"));
 }
