@@ -128,7 +128,7 @@ static bool make_kernels(rt_renderer *r, const rt_scene *scene, rt_status *statu
 }
 
 static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
-                  rt_status *status)
+                  const rt_effects *given, rt_status *status)
 {
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                                 (cl_context_properties)device->platform, 0};
@@ -140,7 +140,7 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
     r->queue = clCreateCommandQueue(r->context, device->id, CL_QUEUE_PROFILING_ENABLE, &error);
     if (!RT_CL_MADE(error, "clCreateCommandQueue", status))
         return false;
-    const rt_effects effects = rt_effects_of(scene);
+    const rt_effects effects = given ? *given : rt_effects_of(scene);
     char options[RT_PROGRAM_OPTIONS_SIZE];
     const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, r->with_occlusion,
                           scene->accuracy};
@@ -180,7 +180,7 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
     const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
     r->stride = side * side;
     r->staging = malloc((size_t)r->stride * sizeof *r->staging);
-    const bool good = r->staging ? build(r, device, scene, bvh, status)
+    const bool good = r->staging ? build(r, device, scene, bvh, options->effects, status)
                                  : rt_status_no_memory(status, "the renderer");
     if (good)
         return r;

@@ -23,6 +23,7 @@ typedef struct rt_render_options {
     int tile;            /* side of a tile in pixels, 1 to RT_TILE_MAX, or 0 for the default */
     bool with_hits;      /* whether rt_renderer_draw may be asked for hit records */
     bool with_occlusion; /* whether rt_renderer_occluded may be called */
+    const rt_effects *effects; /* what to build the kernels for; NULL: rt_effects_of the scene */
 } rt_render_options;
 
 enum rt_stage {

@@ -24,7 +24,9 @@ void rt_scene_clear(rt_scene *scene)
         free(scene->files[i]);
     free(scene->files);
     free(scene->lights);
+    free(scene->light_places);
     free(scene->materials);
+    free(scene->material_places);
     free(scene->spheres);
     free(scene->sphere_materials);
     free(scene->triangles);
@@ -40,16 +42,29 @@ void rt_scene_clear(rt_scene *scene)
 
 bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status)
 {
-    if (!RT_ARRAY_GROW(scene->lights, scene->light_count, &scene->light_capacity))
+    /* Two arrays grow in step: the capacity moves once both have. */
+    size_t capacity = scene->light_capacity;
+    bool grown = RT_ARRAY_GROW(scene->lights, scene->light_count, &capacity);
+    capacity = scene->light_capacity;
+    grown = grown && RT_ARRAY_GROW(scene->light_places, scene->light_count, &capacity);
+    if (!grown)
         return rt_status_no_memory(status, "lights");
+    scene->light_capacity = capacity;
+    scene->light_places[scene->light_count] = scene->here;
     scene->lights[scene->light_count++] = *light;
     return true;
 }
 
 bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status)
 {
-    if (!RT_ARRAY_GROW(scene->materials, scene->material_count, &scene->material_capacity))
+    size_t capacity = scene->material_capacity;
+    bool grown = RT_ARRAY_GROW(scene->materials, scene->material_count, &capacity);
+    capacity = scene->material_capacity;
+    grown = grown && RT_ARRAY_GROW(scene->material_places, scene->material_count, &capacity);
+    if (!grown)
         return rt_status_no_memory(status, "materials");
+    scene->material_capacity = capacity;
+    scene->material_places[scene->material_count] = scene->here;
     scene->materials[scene->material_count++] = *material;
     return true;
 }

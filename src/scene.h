@@ -62,11 +62,15 @@ typedef struct rt_scene {
     float occlusion_distance;
     enum rt_cull cull;
     enum rt_winding winding;
-    rt_place cull_place, smooth_place;
+    rt_place cull_place, smooth_place, image_place, camera_place, background_place, fog_place;
+    rt_place occlusion_place;
+    rt_place here; /* the statement being read: what is added gets this place */
 
     /* All arrays are owned. Primitive indices count spheres, then triangles. */
     rt_light *lights;
+    rt_place *light_places; /* of what calls for the shadow of each, or of the light */
     rt_material *materials;
+    rt_place *material_places;
     rt_sphere *spheres;
     int32_t *sphere_materials;
     rt_triangle *triangles;

@@ -245,6 +245,7 @@ static bool apply_include(parser *p, rt_source *src, const rt_line *l)
 static bool apply(parser *p, rt_source *src, const rt_line *l)
 {
     const rt_vec3 black = {0.0f, 0.0f, 0.0f};
+    p->scene->here = (rt_place){src->name, src->line};
     switch (l->id) {
     case RT_STATEMENT_RT:
         p->has_version = true;

@@ -57,10 +57,12 @@ static void vertex_normals_call_for_smoothness(void **state)
 static void exponents_decide_the_power(void **state)
 {
     (void)state;
-    assert_int_equal(effects_of("material m shininess 255\n").exponent_bits, 8);
-    assert_int_equal(effects_of("material m shininess 256\n").exponent_bits, 20);
-    assert_int_equal(effects_of("material m shininess 1e6\n").exponent_bits, 20);
-    assert_true(effects_of("material m shininess 2.5\n").has_fractional_exponent);
+    assert_int_equal(effects_of("material m shininess 255\n" SPHERE).exponent_bits, 8);
+    assert_int_equal(effects_of("material m shininess 256\n" SPHERE).exponent_bits, 20);
+    assert_int_equal(effects_of("material m shininess 1e6\n" SPHERE).exponent_bits, 20);
+    assert_true(effects_of("material m shininess 2.5\n" SPHERE).has_fractional_exponent);
+    const rt_effects unused = effects_of("material n shininess 2.5\n" MATERIAL SPHERE);
+    assert_false(unused.has_fractional_exponent);
 }
 
 static void every_effect_has_a_name(void **state)
