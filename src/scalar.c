@@ -1,145 +1,125 @@
-/* The pictures of the scalar reference: rays from the camera, and what they carry back. */
-#include "scalar_real.h"
+/* The pictures of the scalar reference: rays from the camera through the pixels, and the mean of
+ * what they bring back. */
+#include <pthread.h>
+
+#include "parallel.h"
+#include "scalar_effects.h"
 
 /* The camera at this precision. */
 typedef struct eye {
     vec origin, right, up, forward;
+    vec lens_right, lens_up; /* the lens's radius along the picture's axes */
+    real focus;              /* how far away along `forward` everything is sharp */
 } eye;
 
-static vec turned_toward(vec normal, vec direction)
-{
-    return dot(normal, direction) > 0 ? times(normal, -1) : normal;
-}
+/* A picture in the making, shared by the threads that take its rows. */
+typedef struct picture {
+    const rt_scene *scene;
+    rt_image *image;
+    const rt_watch *watch;
+    eye e;
+    pthread_mutex_t lock; /* of what follows, and of the watch */
+    int rows_done;
+    bool is_stopped;
+} picture;
 
-static vec triangle_normal(const rt_triangle *triangle)
+static void set_lens(eye *e, const rt_scene *scene, const rt_view *view)
 {
-    const vec a = vec_of(triangle->ax, triangle->ay, triangle->az);
-    const vec b = vec_of(triangle->bx, triangle->by, triangle->bz);
-    const vec c = vec_of(triangle->cx, triangle->cy, triangle->cz);
-    return unit(cross(moderate(minus(b, a)), moderate(minus(c, a))));
-}
-
-/* The vertex normals weighed by u and v, on the side of the geometric normal `facing`. */
-static vec interpolated_normal(const float *n, real u, real v, vec facing)
-{
-    const vec na = vec_of(n[0], n[1], n[2]);
-    const vec nb = vec_of(n[3], n[4], n[5]);
-    const vec nc = vec_of(n[6], n[7], n[8]);
-    const vec sum = add_scaled(nc, v, add_scaled(nb, u, times(na, (real)1 - u - v)));
-    const vec normal = unit(sum);
-    const real side = dot(normal, facing);
-    if (!isfinite(side))
-        return facing;
-    return side < 0 ? times(normal, -1) : normal;
-}
-
-static vec normal_at(const rt_scene *scene, const ray *r, const hit *h, vec point)
-{
-    if (h->primitive < (int)scene->sphere_count) {
-        const rt_sphere *sphere = &scene->spheres[h->primitive];
-        const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
-        return turned_toward(unit(minus(point, center)), r->direction);
-    }
-    const int triangle = h->primitive - (int)scene->sphere_count;
-    const vec facing = turned_toward(triangle_normal(&scene->triangles[triangle]), r->direction);
-    const int record = scene->triangle_normals[triangle];
-    if (record < 0)
-        return facing;
-    return interpolated_normal(scene->normals + (size_t)record * RT_NORMAL_COMPONENTS, h->u, h->v,
-                               facing);
-}
-
-static real power(real x, const rt_material *material)
-{
-    if (material->exponent < 0)
-        return POW(x, (real)material->shininess);
-    real result = 1;
-    for (int n = material->exponent; n > 0; n >>= 1) {
-        if (n & 1)
-            result = result * x;
-        x = x * x;
-    }
-    return result;
-}
-
-static vec add_light(vec color, const rt_light *light, const rt_material *m, vec point, vec normal,
-                     vec direction)
-{
-    const vec place = vec_of(light->x, light->y, light->z);
-    const vec to_light = light->w != 0.0f ? minus(place, point) : place;
-    const vec l = unit(to_light);
-    if (!isfinite(l.x))
-        return color; /* a light exactly at the point has no direction */
-    const real n_dot_l = dot(normal, l);
-    const vec mirrored = add_scaled(normal, 2 * n_dot_l, times(l, -1));
-    const real r_dot_v = -dot(mirrored, direction);
-    const real diffuse = n_dot_l > 0 ? n_dot_l : 0;
-    const real specular = power(r_dot_v > 0 ? r_dot_v : 0, m);
-    return (vec){
-        FMA((real)light->r, FMA((real)m->ks_r, specular, (real)m->kd_r * diffuse), color.x),
-        FMA((real)light->g, FMA((real)m->ks_g, specular, (real)m->kd_g * diffuse), color.y),
-        FMA((real)light->b, FMA((real)m->ks_b, specular, (real)m->kd_b * diffuse), color.z)};
-}
-
-static vec shade(const rt_scene *scene, const ray *r, const hit *h)
-{
-    if (h->primitive == RT_MISS)
-        return vec_of(scene->background.x, scene->background.y, scene->background.z);
-    const bool is_sphere = h->primitive < (int)scene->sphere_count;
-    const int material = is_sphere
-                             ? scene->sphere_materials[h->primitive]
-                             : scene->triangle_materials[h->primitive - (int)scene->sphere_count];
-    const rt_material *m = &scene->materials[material];
-    const vec point = add_scaled(r->direction, h->t, r->origin);
-    const vec normal = normal_at(scene, r, h, point);
-    vec color = {(real)scene->ambient.x * (real)m->ka_r, (real)scene->ambient.y * (real)m->ka_g,
-                 (real)scene->ambient.z * (real)m->ka_b};
-    for (size_t i = 0; i < scene->light_count; ++i)
-        color = add_light(color, &scene->lights[i], m, point, normal, r->direction);
-    return color;
+    const double *r = view->right, *u = view->up;
+    const double radius = 0.5 * (double)scene->camera.aperture;
+    const double across = radius / hypot(hypot(r[0], r[1]), r[2]);
+    const double along = radius / hypot(hypot(u[0], u[1]), u[2]);
+    e->lens_right = (vec){(real)(r[0] * across), (real)(r[1] * across), (real)(r[2] * across)};
+    e->lens_up = (vec){(real)(u[0] * along), (real)(u[1] * along), (real)(u[2] * along)};
+    const rt_vec3 from = scene->camera.from, at = scene->camera.at;
+    const double distance =
+        hypot(hypot((double)at.x - (double)from.x, (double)at.y - (double)from.y),
+              (double)at.z - (double)from.z);
+    e->focus = scene->camera.focus > 0.0f ? (real)scene->camera.focus : (real)distance;
 }
 
 static eye eye_of(const rt_scene *scene)
 {
-#ifdef RT_SCALAR_DOUBLE
     const rt_view v = rt_scene_view(scene);
-    return (eye){{v.origin[0], v.origin[1], v.origin[2]},
-                 {v.right[0], v.right[1], v.right[2]},
-                 {v.up[0], v.up[1], v.up[2]},
-                 {v.forward[0], v.forward[1], v.forward[2]}};
+#ifdef RT_SCALAR_DOUBLE
+    eye e = {.origin = {v.origin[0], v.origin[1], v.origin[2]},
+             .right = {v.right[0], v.right[1], v.right[2]},
+             .up = {v.up[0], v.up[1], v.up[2]},
+             .forward = {v.forward[0], v.forward[1], v.forward[2]}};
 #else
     const rt_frame f = rt_scene_frame(scene);
-    return (eye){{f.ox, f.oy, f.oz},
-                 {f.right_x, f.right_y, f.right_z},
-                 {f.up_x, f.up_y, f.up_z},
-                 {f.forward_x, f.forward_y, f.forward_z}};
+    eye e = {.origin = {f.ox, f.oy, f.oz},
+             .right = {f.right_x, f.right_y, f.right_z},
+             .up = {f.up_x, f.up_y, f.up_z},
+             .forward = {f.forward_x, f.forward_y, f.forward_z}};
 #endif
+    set_lens(&e, scene, &v);
+    return e;
 }
 
-static ray primary_ray(const eye *e, int x, int y, int width, int height)
+/* A single sample goes through the pixel's centre. */
+static ray primary_ray(const rt_scene *scene, const eye *e, const stream *samples)
 {
-    const vec upward = add_scaled(e->up, (real)(height - 1 - 2 * y), e->forward);
-    const vec through = add_scaled(e->right, (real)(2 * x + 1 - width), upward);
-    return (ray){e->origin, unit(through), 0, INFINITY};
+    const uint32_t count = (uint32_t)scene->samples, sample = samples->sample;
+    pair offset = {0, 0};
+    if (count > 1) {
+        const pair p = NAME(stratified)(samples, DIMENSION_PIXEL, count, sample);
+        offset = (pair){NAME(filtered)(scene->filter, p.x), NAME(filtered)(scene->filter, p.y)};
+    }
+    /* In half pixels from the middle of the picture; rows count downwards. */
+    const real across = (real)(2 * (int)samples->x + 1 - scene->width) + 2 * offset.x;
+    const real upward = (real)(scene->height - 1 - 2 * (int)samples->y) - 2 * offset.y;
+    const vec through = add_scaled(e->right, across, add_scaled(e->up, upward, e->forward));
+    if (!(scene->camera.aperture > 0.0f))
+        return (ray){e->origin, unit(through), 0, INFINITY};
+    const pair p = NAME(disk)(NAME(stratified)(samples, DIMENSION_LENS, count, sample));
+    const vec lens = add_scaled(e->lens_up, p.y, times(e->lens_right, p.x));
+    const vec direction = add_scaled(through, e->focus, times(lens, -1));
+    return (ray){plus(e->origin, lens), unit(direction), 0, INFINITY};
+}
+
+static void draw_pixel(const picture *p, int x, int y)
+{
+    const size_t i = (size_t)y * (size_t)p->image->width + (size_t)x;
+    const real count = (real)p->scene->samples;
+    vec sum = {0, 0, 0};
+    for (int sample = 0; sample < p->scene->samples; ++sample) {
+        const stream samples = {(uint32_t)x, (uint32_t)y, (uint32_t)sample, 0};
+        const ray r = primary_ray(p->scene, &p->e, &samples);
+        const hit h = NAME(closest)(p->scene, &r);
+        sum = plus(sum, NAME(radiance)(p->scene, &r, &h, &samples));
+        if (sample == 0 && p->image->hits)
+            p->image->hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
+    }
+    p->image->rgb[3 * i] = (float)(sum.x / count);
+    p->image->rgb[3 * i + 1] = (float)(sum.y / count);
+    p->image->rgb[3 * i + 2] = (float)(sum.z / count);
+}
+
+static void draw_row(void *context, size_t row)
+{
+    picture *p = context;
+    pthread_mutex_lock(&p->lock);
+    const double done = (double)p->rows_done / p->image->height;
+    if (!p->is_stopped && !rt_watch_tick(p->watch, done))
+        p->is_stopped = true;
+    const bool is_stopped = p->is_stopped;
+    ++p->rows_done;
+    pthread_mutex_unlock(&p->lock);
+    for (int x = 0; x < p->image->width && !is_stopped; ++x)
+        draw_pixel(p, x, (int)row);
 }
 
 bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch, rt_status *status)
 {
-    const eye e = eye_of(scene);
-    for (int y = 0; y < image->height; ++y) {
-        if (!rt_watch_tick(watch, (double)y / image->height))
-            return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
-        for (int x = 0; x < image->width; ++x) {
-            const size_t i = (size_t)y * (size_t)image->width + (size_t)x;
-            const ray r = primary_ray(&e, x, y, image->width, image->height);
-            const hit h = NAME(closest)(scene, &r);
-            const vec color = shade(scene, &r, &h);
-            image->rgb[3 * i] = (float)color.x;
-            image->rgb[3 * i + 1] = (float)color.y;
-            image->rgb[3 * i + 2] = (float)color.z;
-            if (image->hits)
-                image->hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
-        }
-    }
+    picture p = {.scene = scene,
+                 .image = image,
+                 .watch = watch,
+                 .e = eye_of(scene),
+                 .lock = PTHREAD_MUTEX_INITIALIZER};
+    rt_parallel((size_t)image->height, rt_parallel_processors(), draw_row, &p);
+    pthread_mutex_destroy(&p.lock);
+    if (p.is_stopped)
+        return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
     return true;
 }

@@ -65,9 +65,20 @@ static inline vec minus(vec a, vec b)
     return (vec){a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
+static inline vec plus(vec a, vec b)
+{
+    return (vec){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
 static inline vec times(vec a, real s)
 {
     return (vec){a.x * s, a.y * s, a.z * s};
+}
+
+/* Component by component. */
+static inline vec product(vec a, vec b)
+{
+    return (vec){a.x * b.x, a.y * b.y, a.z * b.z};
 }
 
 /* a * s + b */
