@@ -101,10 +101,9 @@ static void pin_pocl_threads(void)
     setenv("POCL_AFFINITY", "1", 0);
 }
 
-bool rt_device_list_read(rt_device_list *list, rt_status *status)
+static bool read_list(rt_device_list *list, rt_status *status)
 {
     *list = (rt_device_list){NULL, 0, 0};
-    pin_pocl_threads();
     cl_uint count = 0;
     const cl_int error = clGetPlatformIDs(0, NULL, &count);
     if (error == PLATFORM_NOT_FOUND_KHR || (error == CL_SUCCESS && count == 0))
@@ -121,6 +120,45 @@ bool rt_device_list_read(rt_device_list *list, rt_status *status)
     if (!good)
         rt_device_list_clear(list);
     return good;
+}
+
+bool rt_device_list_read(rt_device_list *list, rt_status *status)
+{
+    pin_pocl_threads();
+    return read_list(list, status);
+}
+
+static void *read_beside(void *argument)
+{
+    rt_device_opening *o = argument;
+    o->good = read_list(&o->list, &o->status);
+    return NULL;
+}
+
+void rt_device_list_begin(rt_device_opening *o)
+{
+    *o = (rt_device_opening){.has_begun = true, .status = RT_STATUS_INIT};
+    pin_pocl_threads();
+    o->has_thread = pthread_create(&o->thread, NULL, read_beside, o) == 0;
+}
+
+bool rt_device_list_end(rt_device_opening *o, rt_device_list *list, rt_status *status)
+{
+    if (!o->has_begun)
+        return rt_device_list_read(list, status);
+    o->has_begun = false;
+    if (o->has_thread)
+        pthread_join(o->thread, NULL);
+    else
+        read_beside(o);
+    *list = o->list;
+    /* Without the last newline, which the caller's status adds. */
+    const int length = o->status.length ? (int)o->status.length - 1 : 0;
+    if (!o->good)
+        rt_status_fail(status, o->status.code, "%.*s", length,
+                       o->status.text ? o->status.text : "");
+    rt_status_clear(&o->status);
+    return o->good;
 }
 
 void rt_device_list_clear(rt_device_list *list)

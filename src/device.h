@@ -2,6 +2,7 @@
 #ifndef RT_DEVICE_H
 #define RT_DEVICE_H
 
+#include <pthread.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -36,6 +37,21 @@ typedef struct rt_device_list {
  * skipped; a machine without a platform gives an empty list, not an error. */
 bool rt_device_list_read(rt_device_list *list, rt_status *status);
 void rt_device_list_clear(rt_device_list *list);
+
+/* The same beside other work: opening a runtime takes tens of milliseconds, most of them to load a
+ * compiler, which a scene can be read in. Between the two calls the environment must not be
+ * changed, and whoever begins must end. */
+typedef struct rt_device_opening {
+    pthread_t thread;
+    bool has_begun, has_thread; /* without a thread the list is read at the end */
+    bool good;
+    rt_device_list list;
+    rt_status status;
+} rt_device_opening;
+
+void rt_device_list_begin(rt_device_opening *opening);
+/* As rt_device_list_read; reads it now where nothing has begun. */
+bool rt_device_list_end(rt_device_opening *opening, rt_device_list *list, rt_status *status);
 
 /* The device that `selector` names: NULL for the default (the first GPU, else the first CPU device,
  * else the first of all), an index, "P:D", "cpu", "gpu", "accelerator", or any part of a device's

@@ -38,6 +38,7 @@ typedef struct run {
     rt_options options;
     rt_status status;
     rt_scene scene;
+    rt_device_opening opening;
     rt_device_list devices;
     const rt_device **chosen; /* owned: room for all devices; NULL on the scalar path */
     size_t chosen_count;
@@ -111,7 +112,7 @@ static bool choose_devices(run *r)
 {
     if (r->options.target != RT_TARGET_DEVICE)
         return true;
-    if (!rt_device_list_read(&r->devices, &r->status))
+    if (!rt_device_list_end(&r->opening, &r->devices, &r->status))
         return false;
     r->chosen = calloc(r->devices.count + 1, sizeof(const rt_device *));
     if (!r->chosen)
@@ -270,6 +271,8 @@ static bool render(run *r)
     catch_signals();
     r->watch = (rt_watch){keep_going, r};
     rt_scene_init(&r->scene);
+    if (r->options.target == RT_TARGET_DEVICE)
+        rt_device_list_begin(&r->opening);
     /* A picture that differs is still written: it is what there is to look at. */
     const bool drawn = read_scene(r) && open_outputs(r) && choose_devices(r) && draw(r);
     if (!drawn)
@@ -319,6 +322,8 @@ static void release(run *r)
     rt_output_discard(&r->stats_file);
     rt_image_clear(&r->image);
     free(r->chosen);
+    if (r->opening.has_begun)
+        rt_device_list_end(&r->opening, &r->devices, &r->status);
     rt_device_list_clear(&r->devices);
     rt_scene_clear(&r->scene);
     rt_status_clear(&r->status);

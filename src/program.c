@@ -7,6 +7,7 @@
 
 #include "file.h"
 #include "kernel_text.h"
+#include "program_cache.h"
 
 enum rt_rounding rt_program_rounding(const rt_device *device)
 {
@@ -92,31 +93,43 @@ static void report_failure(cl_program program, const rt_device *device, const ch
     free(log);
 }
 
-cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
-                            rt_status *status)
+/* Compiles the source; NULL, with the whole log in the status, where it does not build. */
+static cl_program compile(const rt_recipe *r, rt_status *status)
 {
-    const char *folder = getenv("RT_KERNELS");
-    char *read = NULL;
-    const char *text = rt_kernel_text;
-    size_t length = rt_kernel_text_length;
-    if (folder && *folder) {
-        read = read_folder(folder, &length, status);
-        if (!read)
-            return NULL;
-        text = read;
-    }
     cl_int error = CL_SUCCESS;
-    cl_program program = clCreateProgramWithSource(context, 1, &text, &length, &error);
-    free(read);
+    cl_program program =
+        clCreateProgramWithSource(r->context, 1, (const char *[]){r->text}, &r->length, &error);
     if (!RT_CL_MADE(error, "clCreateProgramWithSource", status))
         return NULL;
-    error = clBuildProgram(program, 1, &device->id, options, NULL, NULL);
+    error = clBuildProgram(program, 1, &r->device->id, r->options, NULL, NULL);
     if (error == CL_SUCCESS)
         return program;
     if (error == CL_BUILD_PROGRAM_FAILURE)
-        report_failure(program, device, options, status);
+        report_failure(program, r->device, r->options, status);
     else
         RT_CL_MADE(error, "clBuildProgram", status);
     clReleaseProgram(program);
     return NULL;
+}
+
+cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
+                            rt_status *status)
+{
+    rt_recipe recipe = {context, device, options, rt_kernel_text, rt_kernel_text_length};
+    const char *folder = getenv("RT_KERNELS");
+    if (folder && *folder) {
+        /* Kernels that someone is working on: each is another program, and not kept. */
+        char *text = read_folder(folder, &recipe.length, status);
+        recipe.text = text;
+        cl_program program = text ? compile(&recipe, status) : NULL;
+        free(text);
+        return program;
+    }
+    cl_program program = rt_program_cache_load(&recipe);
+    if (program)
+        return program;
+    program = compile(&recipe, status);
+    if (program)
+        rt_program_cache_save(&recipe, program);
+    return program;
 }

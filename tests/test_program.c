@@ -2,6 +2,8 @@
 #define _GNU_SOURCE
 #include "support.h"
 
+#include <dirent.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -96,6 +98,75 @@ static void a_missing_kernel_folder(void **state)
     rt_status_clear(&status);
 }
 
+/* The one file in the cache's folder, or an empty text. */
+static const char *cached_file(const char *folder)
+{
+    static char path[600];
+    path[0] = '\0';
+    DIR *dir = opendir(folder);
+    for (struct dirent *e; dir && (e = readdir(dir)) != NULL;)
+        if (e->d_name[0] != '.')
+            snprintf(path, sizeof path, "%s/%s", folder, e->d_name);
+    if (dir)
+        closedir(dir);
+    return path;
+}
+
+static void assert_builds(void)
+{
+    rt_status status = RT_STATUS_INIT;
+    cl_program program = build("-DRT_LANES=1", &status);
+    assert_good(program != NULL, &status);
+    cl_int error = CL_SUCCESS;
+    cl_kernel kernel = clCreateKernel(program, "rt_resolve", &error);
+    assert_int_equal(error, CL_SUCCESS);
+    clReleaseKernel(kernel);
+    clReleaseProgram(program);
+}
+
+static void a_program_is_kept(void **state)
+{
+    (void)state;
+    const char *folder = test_path("cache/of/programs");
+    setenv("RT_CACHE_DIR", folder, 1);
+    assert_builds();
+    size_t length = 0;
+    char path[600];
+    snprintf(path, sizeof path, "%s", cached_file(folder));
+    char *whole = test_read_file(path, &length);
+    assert_non_null(whole);
+    assert_builds(); /* from the file */
+
+    /* A file that is cut, another program's, or no program at all, is not believed: it is written
+     * anew. */
+    const size_t lengths[] = {0, 10, length / 2, length - 1};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; ++i) {
+        test_write_file(path, whole, lengths[i]);
+        assert_builds();
+    }
+    const size_t places[] = {20, length / 2, length - 20};
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        whole[places[i]] ^= 1;
+        test_write_file(path, whole, length);
+        whole[places[i]] ^= 1;
+        assert_builds();
+    }
+    char *again = test_read_file(path, NULL);
+    assert_memory_equal(again, whole, 64);
+    free(again);
+    free(whole);
+}
+
+static void a_cache_that_cannot_be_used_is_no_error(void **state)
+{
+    (void)state;
+    static const char *const folders[] = {"", "/dev/null/cache", "/proc/cache"};
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; ++i) {
+        setenv("RT_CACHE_DIR", folders[i], 1);
+        assert_builds();
+    }
+}
+
 static void errors_have_names(void **state)
 {
     (void)state;
@@ -115,6 +186,8 @@ int main(void)
         cmocka_unit_test(unknown_variants_do_not_build),
         cmocka_unit_test(a_log_names_the_file_and_line),
         cmocka_unit_test(a_missing_kernel_folder),
+        cmocka_unit_test(a_program_is_kept),
+        cmocka_unit_test(a_cache_that_cannot_be_used_is_no_error),
         cmocka_unit_test(errors_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -66,6 +66,7 @@ static void become(const command *c, const char *cache, const char *log)
     if (out < 0 || dup2(out, STDOUT_FILENO) < 0 || dup2(out, STDERR_FILENO) < 0)
         _exit(126);
     setenv("POCL_CACHE_DIR", cache, 1);
+    setenv("RT_CACHE_DIR", cache, 1);
     execvp(arguments[0], arguments);
     fprintf(stderr, "cannot start %s: %s; make bench-deps installs what is missing\n", arguments[0],
             strerror(errno));
