@@ -15,6 +15,7 @@ typedef struct eye {
 /* A picture in the making, shared by the threads that take its rows. */
 typedef struct picture {
     const rt_scene *scene;
+    scalar_world world;
     rt_image *image;
     const rt_watch *watch;
     eye e;
@@ -86,8 +87,8 @@ static void draw_pixel(const picture *p, int x, int y)
     for (int sample = 0; sample < p->scene->samples; ++sample) {
         const stream samples = {(uint32_t)x, (uint32_t)y, (uint32_t)sample, 0};
         const ray r = primary_ray(p->scene, &p->e, &samples);
-        const hit h = NAME(closest)(p->scene, &r);
-        sum = plus(sum, NAME(radiance)(p->scene, &r, &h, &samples));
+        const hit h = NAME(closest)(&p->world, &r);
+        sum = plus(sum, NAME(radiance)(&p->world, &r, &h, &samples));
         if (sample == 0 && p->image->hits)
             p->image->hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
     }
@@ -113,12 +114,14 @@ static void draw_row(void *context, size_t row)
 bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch, rt_status *status)
 {
     picture p = {.scene = scene,
+                 .world = NAME(world)(scene),
                  .image = image,
                  .watch = watch,
                  .e = eye_of(scene),
                  .lock = PTHREAD_MUTEX_INITIALIZER};
     rt_parallel((size_t)image->height, rt_parallel_processors(), draw_row, &p);
     pthread_mutex_destroy(&p.lock);
+    NAME(world_clear)(&p.world);
     if (p.is_stopped)
         return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
     return true;

@@ -84,13 +84,13 @@ vec NAME(pattern)(const rt_scene *scene, const surface *s);
 /* ---- scalar_shade.c ---- */
 
 /* The light that the surface itself sends against the ray's direction. */
-vec NAME(local_color)(const rt_scene *scene, const surface *s, vec direction,
+vec NAME(local_color)(const scalar_world *world, const surface *s, vec direction,
                       const stream *samples);
 
 /* ---- scalar_path.c ---- */
 
 /* What the camera gets along a ray that meets `h`. */
-vec NAME(radiance)(const rt_scene *scene, const ray *r, const hit *h, const stream *samples);
+vec NAME(radiance)(const scalar_world *world, const ray *r, const hit *h, const stream *samples);
 
 /* The part of unpolarised light that the boundary between two media mirrors: eta is the quotient of
  * their indices, this side's by the other's, c1 the cosine of incidence. */

@@ -115,16 +115,16 @@ static real split(const surface *s, vec d, real eta, vec *refracted)
     return part;
 }
 
-static void arrive(const rt_scene *scene, branch b, const hit *h, vec *sum);
+static void arrive(const scalar_world *world, branch b, const hit *h, vec *sum);
 
-static void follow(const rt_scene *scene, const branch *b, vec *sum)
+static void follow(const scalar_world *world, const branch *b, vec *sum)
 {
-    const hit h = NAME(closest)(scene, &b->r);
-    arrive(scene, *b, &h, sum);
+    const hit h = NAME(closest)(world, &b->r);
+    arrive(world, *b, &h, sum);
 }
 
 /* The refracted ray with all that comes of it, then the mirror ray. */
-static void go_on(const rt_scene *scene, const branch *b, const surface *s, vec *sum)
+static void go_on(const scalar_world *world, const branch *b, const surface *s, vec *sum)
 {
     const rt_material *m = s->material;
     const vec d = b->r.direction;
@@ -139,7 +139,7 @@ static void go_on(const rt_scene *scene, const branch *b, const surface *s, vec 
         if (next.weight >= LEAST_WEIGHT) {
             next.medium = s->from_outside ? s->material_index : -1;
             next.r = (ray){NAME(start)(s, refracted), refracted, 0, INFINITY};
-            follow(scene, &next, sum);
+            follow(world, &next, sum);
         }
         mirror_weight = FMA((real)m->transmit, part, (real)m->reflect);
     }
@@ -148,27 +148,28 @@ static void go_on(const rt_scene *scene, const branch *b, const surface *s, vec 
         next.medium = b->medium;
         const vec away = mirrored(s, d);
         next.r = (ray){NAME(start)(s, away), away, 0, INFINITY};
-        follow(scene, &next, sum);
+        follow(world, &next, sum);
     }
 }
 
-static void arrive(const rt_scene *scene, branch b, const hit *h, vec *sum)
+static void arrive(const scalar_world *world, branch b, const hit *h, vec *sum)
 {
+    const rt_scene *scene = world->scene;
     pass(scene, &b, h->t, sum);
     if (h->primitive == RT_MISS) {
         add(sum, &b, background(scene, b.r.direction));
         return;
     }
     const surface s = NAME(surface_at)(scene, &b.r, h);
-    add(sum, &b, NAME(local_color)(scene, &s, b.r.direction, &b.samples));
+    add(sum, &b, NAME(local_color)(world, &s, b.r.direction, &b.samples));
     if (b.samples.step < (uint32_t)scene->depth)
-        go_on(scene, &b, &s, sum);
+        go_on(world, &b, &s, sum);
 }
 
-vec NAME(radiance)(const rt_scene *scene, const ray *r, const hit *h, const stream *samples)
+vec NAME(radiance)(const scalar_world *world, const ray *r, const hit *h, const stream *samples)
 {
     vec sum = {0, 0, 0};
     const branch b = {*r, 1, {1, 1, 1}, -1, *samples};
-    arrive(scene, b, h, &sum);
+    arrive(world, b, h, &sum);
     return sum;
 }

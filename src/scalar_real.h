@@ -111,7 +111,30 @@ static inline vec unit(vec a)
     return times(m, (real)1 / SQRT(dot(m, m)));
 }
 
-/* scalar_trace.c: the nearest hit; t is infinite where there is none. */
-hit NAME(closest)(const rt_scene *scene, const ray *r);
+/* A scene made ready to be traced. The tree is a plain one of this path's own; without it (`nodes`
+ * NULL, where there was no memory) every primitive is tried, which gives the same bits. */
+typedef struct scalar_world {
+    const rt_scene *scene;
+    struct scalar_node *nodes; /* owned */
+    int *order;                /* owned: primitives as the leaves have them */
+} scalar_world;
+
+/* scalar_tree.c. The scene must outlive the world and stay as it is. */
+scalar_world NAME(world)(const rt_scene *scene);
+void NAME(world_clear)(scalar_world *world);
+
+/* The nearest hit with t in (tmin, tmax); t is infinite where there is none. */
+hit NAME(closest)(const scalar_world *world, const ray *r);
+/* Whether there is any hit with t in (tmin, tmax). */
+bool NAME(occluded)(const scalar_world *world, const ray *r);
+
+/* scalar_trace.c: takes a hit with one primitive if it is nearer than the best, or as near and of a
+ * lower index. The t that it takes is within the ray's part in the primitive's box. */
+void NAME(meet)(const rt_scene *scene, const ray *r, int primitive, hit *best);
+/* That box. */
+void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi);
+/* The ray's part in a box, as t from `enter` to `leave`; empty where enter > leave. Monotone in the
+ * box, rounding included. */
+void NAME(part_in_box)(const ray *r, vec lo, vec hi, real *enter, real *leave);
 
 #endif

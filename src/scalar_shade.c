@@ -24,29 +24,29 @@ static vec way_to(const rt_light *light, const surface *s)
 
 /* Whether something is between `from` and the point `to`. The ray ends just short of it, so that
  * what stands behind a light does not hide it. */
-static bool is_hidden(const rt_scene *scene, vec from, vec to)
+static bool is_hidden(const scalar_world *world, vec from, vec to)
 {
     const vec way = minus(to, from);
     const vec direction = unit(way);
     const ray shadow = {from, direction, 0, dot(way, direction) * (real)(1 - 0x1p-12)};
-    return NAME(closest)(scene, &shadow).primitive != RT_MISS;
+    return NAME(occluded)(world, &shadow);
 }
 
 /* The part of the light number `index` that reaches the surface, 0 to 1. */
-static real visibility(const rt_scene *scene, int index, const surface *s, vec to_light,
+static real visibility(const scalar_world *world, int index, const surface *s, vec to_light,
                        const stream *samples)
 {
-    const rt_light *light = &scene->lights[index];
+    const rt_light *light = &world->scene->lights[index];
     if (!light->shadow)
         return 1;
     const vec from = NAME(start)(s, to_light);
     if (light->w == 0.0f) {
         const ray shadow = {from, to_light, 0, INFINITY};
-        return NAME(closest)(scene, &shadow).primitive == RT_MISS ? 1 : 0;
+        return NAME(occluded)(world, &shadow) ? 0 : 1;
     }
     const vec center = vec_of(light->x, light->y, light->z);
     if (!(light->radius > 0.0f))
-        return is_hidden(scene, from, center) ? 0 : 1;
+        return is_hidden(world, from, center) ? 0 : 1;
     /* The ball is seen as a disk at right angles to the way there. */
     vec t1, t2;
     NAME(axes_about)(to_light, &t1, &t2);
@@ -57,14 +57,15 @@ static real visibility(const rt_scene *scene, int index, const surface *s, vec t
         const pair p = NAME(disk)(NAME(stratified)(samples, dimension, count, i));
         const vec across = add_scaled(t1, (real)light->radius * p.x, center);
         const vec target = add_scaled(t2, (real)light->radius * p.y, across);
-        open += !is_hidden(scene, from, target);
+        open += !is_hidden(world, from, target);
     }
     return (real)open / (real)count;
 }
 
 /* The part of the surroundings, weighed by the cosine, from which ambient light can come. */
-static real openness(const rt_scene *scene, const surface *s, const stream *samples)
+static real openness(const scalar_world *world, const surface *s, const stream *samples)
 {
+    const rt_scene *scene = world->scene;
     if (scene->occlusion_samples == 0)
         return 1;
     const uint32_t count = (uint32_t)scene->occlusion_samples;
@@ -77,7 +78,7 @@ static real openness(const rt_scene *scene, const surface *s, const stream *samp
         if (!(dot(direction, s->facing) > 0))
             continue; /* a smooth normal leans over: this way lies the surface itself */
         const ray probe = {from, direction, 0, (real)scene->occlusion_distance};
-        open += NAME(closest)(scene, &probe).primitive == RT_MISS;
+        open += !NAME(occluded)(world, &probe);
     }
     return (real)open / (real)count;
 }
@@ -94,20 +95,22 @@ static vec phong(const rt_material *m, vec pattern, vec normal, vec to_light, ve
     return add_scaled(vec_of(m->ks_r, m->ks_g, m->ks_b), specular, times(kd, diffuse));
 }
 
-vec NAME(local_color)(const rt_scene *scene, const surface *s, vec direction, const stream *samples)
+vec NAME(local_color)(const scalar_world *world, const surface *s, vec direction,
+                      const stream *samples)
 {
+    const rt_scene *scene = world->scene;
     const rt_material *m = s->material;
     const vec pattern = NAME(pattern)(scene, s);
     const vec ambient = vec_of(scene->ambient.x, scene->ambient.y, scene->ambient.z);
     const vec ka = product(vec_of(m->ka_r, m->ka_g, m->ka_b), pattern);
-    vec color = times(product(ambient, ka), openness(scene, s, samples));
+    vec color = times(product(ambient, ka), openness(world, s, samples));
     for (int i = 0; i < (int)scene->light_count; ++i) {
         const rt_light *light = &scene->lights[i];
         const vec to_light = way_to(light, s);
         if (!isfinite(to_light.x))
             continue;
         const vec seen =
-            times(vec_of(light->r, light->g, light->b), visibility(scene, i, s, to_light, samples));
+            times(vec_of(light->r, light->g, light->b), visibility(world, i, s, to_light, samples));
         const vec part = phong(m, pattern, s->normal, to_light, direction);
         color = (vec){FMA(seen.x, part.x, color.x), FMA(seen.y, part.y, color.y),
                       FMA(seen.z, part.z, color.z)};

@@ -31,28 +31,62 @@ static bool sphere_roots(const ray *r, vec center, real radius, real *near, real
  */
 static void slab(real origin, real direction, real lo, real hi, real *enter, real *leave)
 {
-    const real margin = (FABS(lo) + FABS(hi)) * (real)RT_BOX_MARGIN;
     real inverse = (real)1 / direction;
     if (inverse > REAL_MAX)
         inverse = REAL_MAX;
     if (inverse < -REAL_MAX)
         inverse = -REAL_MAX;
-    const real t0 = ((lo - margin) - origin) * inverse, t1 = ((hi + margin) - origin) * inverse;
+    const real t0 = (lo - origin) * inverse, t1 = (hi - origin) * inverse;
     const real near = t0 < t1 ? t0 : t1, far = t0 < t1 ? t1 : t0;
     *enter = near > *enter ? near : *enter;
     *leave = far < *leave ? far : *leave;
 }
 
+void NAME(part_in_box)(const ray *r, vec lo, vec hi, real *enter, real *leave)
+{
+    *enter = -INFINITY;
+    *leave = INFINITY;
+    slab(r->origin.x, r->direction.x, lo.x, hi.x, enter, leave);
+    slab(r->origin.y, r->direction.y, lo.y, hi.y, enter, leave);
+    slab(r->origin.z, r->direction.z, lo.z, hi.z, enter, leave);
+    *leave = *leave * (real)RT_SLAB_MARGIN;
+}
+
+static real margin_of(real lo, real hi)
+{
+    return (FABS(lo) + FABS(hi)) * (real)RT_BOX_MARGIN;
+}
+
+void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi)
+{
+    if (primitive < (int)scene->sphere_count) {
+        const rt_sphere *s = &scene->spheres[primitive];
+        const real radius = (real)s->radius;
+        *lo = minus(vec_of(s->cx, s->cy, s->cz), (vec){radius, radius, radius});
+        *hi = minus(vec_of(s->cx, s->cy, s->cz), (vec){-radius, -radius, -radius});
+    } else {
+        const rt_triangle *t = &scene->triangles[primitive - (int)scene->sphere_count];
+        const vec a = vec_of(t->ax, t->ay, t->az), b = vec_of(t->bx, t->by, t->bz),
+                  c = vec_of(t->cx, t->cy, t->cz);
+        *lo =
+            (vec){FMIN(a.x, FMIN(b.x, c.x)), FMIN(a.y, FMIN(b.y, c.y)), FMIN(a.z, FMIN(b.z, c.z))};
+        *hi =
+            (vec){FMAX(a.x, FMAX(b.x, c.x)), FMAX(a.y, FMAX(b.y, c.y)), FMAX(a.z, FMAX(b.z, c.z))};
+    }
+    const vec margin = {margin_of(lo->x, hi->x), margin_of(lo->y, hi->y), margin_of(lo->z, hi->z)};
+    *lo = minus(*lo, margin);
+    *hi = minus(*hi, times(margin, -1));
+}
+
 /* Takes a hit if it is nearer than the best, or as near and of a lower index. Rounding can put t
  * outside of the primitive, far outside for slivers and grazing rays: it is kept within the ray's
  * part in the primitive's box, and a ray that does not meet the box does not meet the primitive. */
-static void take(const ray *r, hit candidate, vec lo, vec hi, hit *best)
+static void take(const rt_scene *scene, const ray *r, hit candidate, hit *best)
 {
-    real enter = -INFINITY, leave = INFINITY;
-    slab(r->origin.x, r->direction.x, lo.x, hi.x, &enter, &leave);
-    slab(r->origin.y, r->direction.y, lo.y, hi.y, &enter, &leave);
-    slab(r->origin.z, r->direction.z, lo.z, hi.z, &enter, &leave);
-    leave = leave * (real)RT_SLAB_MARGIN;
+    vec lo, hi;
+    real enter, leave;
+    NAME(box)(scene, candidate.primitive, &lo, &hi);
+    NAME(part_in_box)(r, lo, hi, &enter, &leave);
     if (!(enter <= leave))
         return;
     if (!(candidate.t > enter))
@@ -65,22 +99,21 @@ static void take(const ray *r, hit candidate, vec lo, vec hi, hit *best)
         *best = candidate;
 }
 
-static void intersect_sphere(const ray *r, const rt_sphere *sphere, int primitive, hit *best)
+static void meet_sphere(const rt_scene *scene, const ray *r, int primitive, hit *best)
 {
     real near, far;
+    const rt_sphere *sphere = &scene->spheres[primitive];
     const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
     if (!sphere_roots(r, center, (real)sphere->radius, &near, &far))
         return;
-    const real t = near > r->tmin ? near : far;
-    const vec reach = {(real)sphere->radius, (real)sphere->radius, (real)sphere->radius};
-    const vec lo = minus(center, reach), hi = minus(center, times(reach, -1));
-    take(r, (hit){primitive, t, 0, 0}, lo, hi, best);
+    take(scene, r, (hit){primitive, near > r->tmin ? near : far, 0, 0}, best);
 }
 
-/* Moller and Trumbore 1997; `cull` as rt_scene_cull_sign. */
-static void intersect_triangle(const ray *r, const rt_triangle *triangle, int primitive, int cull,
-                               hit *best)
+/* Moller and Trumbore 1997. */
+static void meet_triangle(const rt_scene *scene, const ray *r, int primitive, hit *best)
 {
+    const rt_triangle *triangle = &scene->triangles[primitive - (int)scene->sphere_count];
+    const int cull = rt_scene_cull_sign(scene);
     const vec a = vec_of(triangle->ax, triangle->ay, triangle->az);
     const vec e1 = minus(vec_of(triangle->bx, triangle->by, triangle->bz), a);
     const vec e2 = minus(vec_of(triangle->cx, triangle->cy, triangle->cz), a);
@@ -101,44 +134,13 @@ static void intersect_triangle(const ray *r, const rt_triangle *triangle, int pr
     }
     if (!(det > 0 && u >= 0 && v >= 0 && u + v <= det))
         return;
-    const vec b = vec_of(triangle->bx, triangle->by, triangle->bz);
-    const vec c = vec_of(triangle->cx, triangle->cy, triangle->cz);
-    const vec lo = {FMIN(a.x, FMIN(b.x, c.x)), FMIN(a.y, FMIN(b.y, c.y)),
-                    FMIN(a.z, FMIN(b.z, c.z))};
-    const vec hi = {FMAX(a.x, FMAX(b.x, c.x)), FMAX(a.y, FMAX(b.y, c.y)),
-                    FMAX(a.z, FMAX(b.z, c.z))};
-    take(r, (hit){primitive, t / det, u / det, v / det}, lo, hi, best);
+    take(scene, r, (hit){primitive, t / det, u / det, v / det}, best);
 }
 
-/* A ray with a component that is not finite hits nothing. */
-static bool is_lawful(const ray *r)
+void NAME(meet)(const rt_scene *scene, const ray *r, int primitive, hit *best)
 {
-    const vec o = r->origin, d = r->direction;
-    return isfinite(o.x) && isfinite(o.y) && isfinite(o.z) && isfinite(d.x) && isfinite(d.y) &&
-           isfinite(d.z) && r->tmax > r->tmin;
-}
-
-hit NAME(closest)(const rt_scene *scene, const ray *r)
-{
-    hit best = {RT_MISS, is_lawful(r) ? r->tmax : -INFINITY, 0, 0};
-    const int spheres = (int)scene->sphere_count;
-    const int cull = rt_scene_cull_sign(scene);
-    for (int i = 0; i < spheres; ++i)
-        intersect_sphere(r, &scene->spheres[i], i, &best);
-    for (int i = 0; i < (int)scene->triangle_count; ++i)
-        intersect_triangle(r, &scene->triangles[i], spheres + i, cull, &best);
-    if (best.primitive == RT_MISS)
-        best.t = INFINITY;
-    return best;
-}
-
-void NAME(trace)(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
-{
-    for (size_t i = 0; i < count; ++i) {
-        const float *o = rays[i].origin, *d = rays[i].direction;
-        const ray r = {vec_of(o[0], o[1], o[2]), vec_of(d[0], d[1], d[2]), (real)rays[i].tmin,
-                       (real)rays[i].tmax};
-        const hit h = NAME(closest)(scene, &r);
-        hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
-    }
+    if (primitive < (int)scene->sphere_count)
+        meet_sphere(scene, r, primitive, best);
+    else
+        meet_triangle(scene, r, primitive, best);
 }

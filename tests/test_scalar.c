@@ -1,0 +1,2 @@
+/* The scalar reference in float. */
+#include "scalar_cases.h"
