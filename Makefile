@@ -55,9 +55,9 @@ $(BUILD)/%.o: src/%.c | $(BUILD)
 	$(call say,CC)
 	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -c -o $@ $<
 
-# Its JPEG writer shifts into the sign bit; that is the library's, and harmless. Its loops over a
+# Its JPEG code shifts into the sign bit; that is the library's, and harmless. Its loops over a
 # picture's bytes are vectorised at -O3 only.
-$(BUILD)/stb_write.o: override CFLAGS += -O3 -fno-sanitize=undefined
+$(BUILD)/stb_write.o $(BUILD)/stb_read.o: override CFLAGS += -O3 -fno-sanitize=undefined
 
 $(BUILD)/%_double.o: src/%.c | $(BUILD)
 	$(call say,CC)

@@ -9,6 +9,7 @@
 enum rt_value_kind {
     RT_VALUE_NUMBER,    /* one float within [min, max], or (min, max) if `open` */
     RT_VALUE_COUNT,     /* one whole number within [min, max] */
+    RT_VALUE_PAIR,      /* two finite floats */
     RT_VALUE_POINT,     /* three finite floats */
     RT_VALUE_DIRECTION, /* three finite floats, not all zero */
     RT_VALUE_COLOR,     /* three floats within [min, max] */
@@ -19,7 +20,7 @@ enum rt_value_kind {
 };
 
 /* Most fields that a statement has. */
-#define RT_FIELDS_MAX 8
+#define RT_FIELDS_MAX 14
 
 typedef struct rt_field {
     const char *name; /* NULL: positional, straight after the keyword */
@@ -38,6 +39,10 @@ enum rt_statement_id {
     RT_STATEMENT_CAMERA,
     RT_STATEMENT_BACKGROUND,
     RT_STATEMENT_AMBIENT,
+    RT_STATEMENT_FOG,
+    RT_STATEMENT_OCCLUSION,
+    RT_STATEMENT_SHADOWS,
+    RT_STATEMENT_DEPTH,
     RT_STATEMENT_LIGHT_POINT,
     RT_STATEMENT_LIGHT_DIRECTIONAL,
     RT_STATEMENT_MATERIAL,

@@ -35,6 +35,9 @@ void rt_scene_clear(rt_scene *scene)
     free(scene->normals);
     free(scene->triangle_uvs);
     free(scene->uvs);
+    for (size_t i = 0; i < scene->texture_count; ++i)
+        free(scene->texture_files[i]);
+    free(scene->texture_files);
     free(scene->textures);
     free(scene->texels);
     *scene = (rt_scene){0};
@@ -99,7 +102,7 @@ bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normal
 {
     if (!has_free_indices(scene, triangles, status))
         return false;
-    /* Three arrays grow in step: the capacity moves once all have. */
+    /* Four arrays grow in step: the capacity moves once all have. */
     const size_t needed = scene->triangle_count + triangles;
     size_t capacity = scene->triangle_capacity;
     bool grown = rt_array_reserve(&scene->triangles, needed, &capacity, sizeof *scene->triangles);
@@ -109,6 +112,9 @@ bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normal
     capacity = scene->triangle_capacity;
     grown = grown && rt_array_reserve(&scene->triangle_normals, needed, &capacity,
                                       sizeof *scene->triangle_normals);
+    capacity = scene->triangle_capacity;
+    grown = grown &&
+            rt_array_reserve(&scene->triangle_uvs, needed, &capacity, sizeof *scene->triangle_uvs);
     if (grown)
         scene->triangle_capacity = capacity;
     grown =
@@ -129,10 +135,21 @@ bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const f
     scene->triangles[count] = *triangle;
     scene->triangle_materials[count] = material;
     scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count : -1;
+    scene->triangle_uvs[count] = -1;
     if (normals)
         memcpy(scene->normals + RT_NORMAL_COMPONENTS * scene->normal_count++, normals,
                RT_NORMAL_COMPONENTS * sizeof *normals);
     scene->triangle_count++;
+    return true;
+}
+
+bool rt_scene_set_uvs(rt_scene *scene, const float *uvs, rt_status *status)
+{
+    if (!rt_array_grow(&scene->uvs, scene->uv_count, &scene->uv_capacity,
+                       RT_UV_COMPONENTS * sizeof *scene->uvs))
+        return rt_status_no_memory(status, "texture coordinates");
+    memcpy(scene->uvs + RT_UV_COMPONENTS * scene->uv_count, uvs, RT_UV_COMPONENTS * sizeof *uvs);
+    scene->triangle_uvs[scene->triangle_count - 1] = (int32_t)scene->uv_count++;
     return true;
 }
 

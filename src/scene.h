@@ -15,6 +15,11 @@
 /* 16384 x 16384: pixel counts and byte counts of a picture stay within 32 bits unsigned. */
 #define RT_IMAGE_PIXELS_MAX (INT64_C(1) << 28)
 #define RT_SHININESS_MAX 1e6f
+/* Rays a pixel, shadow rays a point, occlusion rays a point. */
+#define RT_SAMPLES_MAX 4096
+#define RT_DEPTH_MAX 1024
+/* Of all textures together: 1 GiB, and every index and byte count is within 32 bits. */
+#define RT_TEXELS_MAX (INT64_C(1) << 28)
 
 /* Primitive indices count the spheres first, in file order, then the triangles. */
 typedef struct rt_sphere {
@@ -80,7 +85,8 @@ typedef struct rt_scene {
     int32_t *triangle_uvs;     /* record in `uvs`, or -1 */
     float *uvs;                /* RT_UV_COMPONENTS a record */
     rt_texture *textures;
-    uint32_t *texels; /* of all textures */
+    char **texture_files; /* the path of each, without links and dots */
+    uint32_t *texels;     /* of all textures */
     size_t light_count, light_capacity;
     size_t material_count, material_capacity;
     size_t sphere_count, sphere_capacity;
@@ -107,6 +113,9 @@ bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t mater
                          rt_status *status);
 bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
                            int32_t material, rt_status *status);
+
+/* Gives the triangle added last its texture coordinates: RT_UV_COMPONENTS floats. */
+bool rt_scene_set_uvs(rt_scene *scene, const float *uvs, rt_status *status);
 
 /* Makes room at once for so many triangles more, and records of normals. */
 bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,

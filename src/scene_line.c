@@ -8,7 +8,7 @@
 #include "number.h"
 
 /* Room for what a message expects or lists. */
-#define EXPECTATION_SIZE 160
+#define EXPECTATION_SIZE 200
 
 /* "keyword 'name'" or "keyword" for messages about a value. */
 static void name_field(const rt_statement *statement, const rt_field *field, char *text,
@@ -81,11 +81,12 @@ static bool read_count(rt_source *source, const rt_line *l, const rt_field *fiel
     return true;
 }
 
-static bool read_triple(rt_source *source, const rt_line *l, const rt_field *field, rt_value *v)
+static bool read_numbers(rt_source *source, const rt_line *l, const rt_field *field, rt_value *v)
 {
+    const int count = field->kind == RT_VALUE_PAIR ? 2 : 3;
     rt_source_skip_blanks(source);
     const char *start = source->cursor;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < count; ++i)
         if (!read_float(source, l, field, &v->number[i]))
             return false;
     if (field->kind == RT_VALUE_DIRECTION && v->number[0] == 0.0f && v->number[1] == 0.0f &&
@@ -133,10 +134,11 @@ static bool read_value(rt_source *source, rt_line *l, size_t index)
         return read_float(source, l, field, &v->number[0]);
     case RT_VALUE_COUNT:
         return read_count(source, l, field, v);
+    case RT_VALUE_PAIR:
     case RT_VALUE_POINT:
     case RT_VALUE_DIRECTION:
     case RT_VALUE_COLOR:
-        return read_triple(source, l, field, v);
+        return read_numbers(source, l, field, v);
     case RT_VALUE_CHOICE:
         return read_choice(source, l, field, v);
     case RT_VALUE_NAME:
@@ -169,8 +171,8 @@ static bool fail_unknown_name(rt_source *source, const rt_line *l, const rt_word
         return RT_FAIL_AT(source, rt_word_start(word),
                           "found '%.*s%s' after '%s'; the statement is complete", RT_SHOWN(word),
                           l->statement->keyword);
-    return RT_FAIL_AT(source, rt_word_start(word), "found '%.*s%s'; '%s' has the names %s",
-                      RT_SHOWN(word), l->statement->keyword, list);
+    return RT_FAIL_AT(source, rt_word_start(word), "found '%.*s%s'; '%s' has the name%s %s",
+                      RT_SHOWN(word), l->statement->keyword, count > 1 ? "s" : "", list);
 }
 
 /* The field that a token names, or `count`. Pairs mostly come in the table's order, so the search

@@ -86,6 +86,102 @@ static void every_statement(void **state)
     rt_scene_clear(&s);
 }
 
+static void every_statement_of_an_effect(void **state)
+{
+    (void)state;
+    rt_scene s;
+    test_scene(&s, "image samples 16 filter tent\ncamera aperture 0.25 focus 3\n"
+                   "background 0.1 0.2 0.3 top 0.4 0.5 6\nfog 0.5 0.25 0.125 density 0.75\n"
+                   "occlusion distance 2.5\ndepth 0\n");
+    assert_int_equal(s.samples, 16);
+    assert_int_equal(s.filter, RT_FILTER_TENT);
+    assert_true(s.camera.aperture == 0.25f && s.camera.focus == 3.0f);
+    assert_true(s.has_gradient);
+    assert_vector(s.background, 0.1f, 0.2f, 0.3f);
+    assert_vector(s.background_top, 0.4f, 0.5f, 6);
+    assert_vector(s.fog, 0.5f, 0.25f, 0.125f);
+    assert_true(s.fog_density == 0.75f);
+    assert_int_equal(s.occlusion_samples, 16);
+    assert_true(s.occlusion_distance == 2.5f);
+    assert_int_equal(s.depth, 0);
+    rt_scene_clear(&s);
+    test_scene(&s, "");
+    assert_int_equal(s.samples, 1);
+    assert_int_equal(s.filter, RT_FILTER_BOX);
+    assert_true(s.camera.aperture == 0.0f && s.camera.focus == 0.0f);
+    assert_false(s.has_gradient);
+    assert_true(s.fog_density == 0.0f);
+    assert_int_equal(s.occlusion_samples, 0);
+    assert_int_equal(s.depth, 5);
+    rt_scene_clear(&s);
+}
+
+static void materials_beyond_phong(void **state)
+{
+    (void)state;
+    rt_scene s;
+    test_scene(&s, "material a reflect 0.25 transmit 0.75 ior 1.25 absorb 1 2 3\n"
+                   "material b checker 0.1 0.2 0.3 cell 4\nmaterial c checker 0 0 0\n"
+                   "material d reflect 0.9 transmit 0.1\n");
+    const rt_material *m = s.materials;
+    assert_true(m[0].reflect == 0.25f && m[0].transmit == 0.75f && m[0].ior == 1.25f);
+    assert_true(m[0].absorb_r == 1 && m[0].absorb_g == 2 && m[0].absorb_b == 3);
+    assert_true(m[0].cell == 0 && m[0].texture == -1);
+    assert_true(m[1].reflect == 0 && m[1].transmit == 0 && m[1].ior == 1.5f && m[1].absorb_b == 0);
+    assert_true(m[1].checker_r == 0.1f && m[1].checker_b == 0.3f && m[1].cell == 4);
+    assert_true(m[2].checker_r == 0 && m[2].cell == 1);
+    for (int i = 0; i < 4; ++i)
+        assert_int_equal(s.material_places[i].line, 2 + i);
+    rt_scene_clear(&s);
+}
+
+/* `shadows` counts for every light that does not say otherwise, above it and below. */
+static void whose_shadows(void **state)
+{
+    (void)state;
+    static const char *const lights = "light point at 0 1 0\nlight point at 0 2 0 shadow off\n"
+                                      "light point at 0 3 0 shadow on radius 2 samples 9\n";
+    static const struct {
+        const char *statement;
+        int shadow;
+    } cases[] = {{"", 0}, {"shadows off\n", 0}, {"shadows on\n", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char text[400];
+        rt_scene s;
+        snprintf(text, sizeof text, "%s%slight directional direction 0 -1 0\n", lights,
+                 cases[i].statement);
+        test_scene(&s, text);
+        const int expected[4] = {cases[i].shadow, 0, 1, cases[i].shadow};
+        for (int k = 0; k < 4; ++k)
+            assert_int_equal(s.lights[k].shadow, expected[k]);
+        assert_true(s.lights[2].radius == 2.0f && s.lights[0].radius == 0.0f);
+        assert_int_equal(s.lights[2].samples, 9);
+        assert_int_equal(s.lights[0].samples, 1);
+        rt_scene_clear(&s);
+    }
+    rt_scene s;
+    test_scene(&s, "light point at 0 0 0 radius 0.5\nlight point at 0 0 0 samples 7\n");
+    assert_int_equal(s.lights[0].samples, 16);
+    assert_int_equal(s.lights[1].samples, 1);
+    rt_scene_clear(&s);
+}
+
+static void triangles_with_texture_coordinates(void **state)
+{
+    (void)state;
+    rt_scene s;
+    test_scene(&s, "material m\ntriangle a 0 0 0 b 1 0 0 c 0 1 0 material m\n"
+                   "triangle a 0 0 0 b 1 0 0 c 0 1 0 material m tc 5 6 ta 1 2 tb 3 -4\n"
+                   "triangle a 0 0 0 b 1 0 0 c 0 1 0 material m ta 0 0 tb 1 0 tc 0 1\n");
+    assert_int_equal(s.triangle_uvs[0], -1);
+    assert_int_equal(s.triangle_uvs[1], 0);
+    assert_int_equal(s.triangle_uvs[2], 1);
+    assert_int_equal(s.uv_count, 2);
+    const float expected[RT_UV_COMPONENTS] = {1, 2, 3, -4, 5, 6};
+    assert_memory_equal(s.uvs, expected, sizeof expected);
+    rt_scene_clear(&s);
+}
+
 static void pairs_in_any_order(void **state)
 {
     (void)state;
@@ -286,6 +382,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(defaults),
         cmocka_unit_test(every_statement),
+        cmocka_unit_test(every_statement_of_an_effect),
+        cmocka_unit_test(materials_beyond_phong),
+        cmocka_unit_test(whose_shadows),
+        cmocka_unit_test(triangles_with_texture_coordinates),
         cmocka_unit_test(pairs_in_any_order),
         cmocka_unit_test(layout_does_not_matter),
         cmocka_unit_test(lines_of_ten_megabytes),
