@@ -73,8 +73,8 @@ typedef struct surface {
 
 surface NAME(surface_at)(const rt_scene *scene, const ray *r, const hit *h);
 
-/* Where a ray starts that leaves the surface in `direction`. */
-vec NAME(start)(const surface *s, vec direction);
+/* Where a ray starts that leaves the surface on the side that `side` points to. */
+vec NAME(start)(const surface *s, vec side);
 
 /* ---- scalar_texture.c ---- */
 

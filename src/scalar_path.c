@@ -138,7 +138,7 @@ static void go_on(const scalar_world *world, const branch *b, const surface *s, 
         next.weight = b->weight * ((real)m->transmit * (1 - part));
         if (next.weight >= LEAST_WEIGHT) {
             next.medium = s->from_outside ? s->material_index : -1;
-            next.r = (ray){NAME(start)(s, refracted), refracted, 0, INFINITY};
+            next.r = (ray){NAME(start)(s, times(s->facing, -1)), refracted, 0, INFINITY};
             follow(world, &next, sum);
         }
         mirror_weight = FMA((real)m->transmit, part, (real)m->reflect);
@@ -146,8 +146,7 @@ static void go_on(const scalar_world *world, const branch *b, const surface *s, 
     next.weight = b->weight * mirror_weight;
     if (next.weight >= LEAST_WEIGHT) {
         next.medium = b->medium;
-        const vec away = mirrored(s, d);
-        next.r = (ray){NAME(start)(s, away), away, 0, INFINITY};
+        next.r = (ray){NAME(start)(s, s->facing), mirrored(s, d), 0, INFINITY};
         follow(world, &next, sum);
     }
 }

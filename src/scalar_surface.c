@@ -120,8 +120,8 @@ surface NAME(surface_at)(const rt_scene *scene, const ray *r, const hit *h)
     return s;
 }
 
-vec NAME(start)(const surface *s, vec direction)
+vec NAME(start)(const surface *s, vec side)
 {
-    const bool is_above = dot(s->facing, direction) > 0;
+    const bool is_above = dot(s->facing, side) > 0;
     return add_scaled(s->facing, is_above ? s->lift : -s->lift, s->foot);
 }
