@@ -52,9 +52,21 @@ static inline void test_add_floor(rt_scene *scene, const rt_material *m, float h
 static inline vec test_look(const rt_scene *scene, vec origin, vec direction)
 {
     const ray r = {origin, unit(direction), 0, INFINITY};
-    const hit h = rt_scalar_double_closest(scene, &r);
     const stream samples = {0, 0, 0, 0};
-    return rt_scalar_double_radiance(scene, &r, &h, &samples);
+    scalar_world world = rt_scalar_double_world(scene);
+    const hit h = rt_scalar_double_closest(&world, &r);
+    const vec color = rt_scalar_double_radiance(&world, &r, &h, &samples);
+    rt_scalar_double_world_clear(&world);
+    return color;
+}
+
+/* The surface that the ray meets. */
+static inline surface test_meet(const rt_scene *scene, const ray *r)
+{
+    scalar_world world = rt_scalar_double_world(scene);
+    const hit h = rt_scalar_double_closest(&world, r);
+    rt_scalar_double_world_clear(&world);
+    return rt_scalar_double_surface_at(scene, r, &h);
 }
 
 #define assert_color(actual, r, g, b, tolerance)                                                   \

@@ -334,8 +334,7 @@ static void a_sphere_s_coordinates_are_geographic(void **state)
         const double *d = directions[i];
         const vec out = {d[0], d[1], d[2]}, center = {1, 2, 3};
         const ray r = {add_scaled(out, 5, center), times(out, -1), 0, INFINITY};
-        const hit h = rt_scalar_double_closest(&scene, &r);
-        const surface s = rt_scalar_double_surface_at(&scene, &r, &h);
+        const surface s = test_meet(&scene, &r);
         const double v = i == 3 ? asin(0.6) / PI + 0.5 : d[4];
         assert_near(s.v, v, 1e-7);
         if (fabs(d[1]) < 1)
@@ -355,13 +354,12 @@ static void a_triangle_s_coordinates_are_interpolated(void **state)
     test_begin(&scene);
     test_add_triangle(&scene, &m, &t);
     const ray r = {{1, 0.5, 3}, {0, 0, -1}, 0, INFINITY};
-    const hit h = rt_scalar_double_closest(&scene, &r);
-    surface s = rt_scalar_double_surface_at(&scene, &r, &h);
+    surface s = test_meet(&scene, &r);
     assert_true(s.u == 0 && s.v == 0);
     rt_scene with = scene;
     with.uvs = uvs;
     with.triangle_uvs = &record;
-    s = rt_scalar_double_surface_at(&with, &r, &h);
+    s = test_meet(&with, &r);
     assert_near(s.u, 0.5 + 2 * 0.25, 1e-14);
     assert_near(s.v, 0.25 - 4 * 0.125, 1e-14);
     rt_scene_clear(&scene);
