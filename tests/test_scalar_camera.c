@@ -94,10 +94,10 @@ static void the_circle_of_confusion_is_the_thin_lens_s(void **state)
         rt_scene scene;
         rt_image image;
         const rt_material white = test_glow(1, 1, 1);
-        const double D = distances[i], F = 6, A = 0.5, pixels = 256, ball = 0.02 * D;
+        const double D = distances[i], F = 6, A = 0.5, pixels = 128, ball = 0.02 * D;
         test_begin(&scene);
-        scene.width = scene.height = 256;
-        scene.samples = 256;
+        scene.width = scene.height = 128;
+        scene.samples = 64;
         scene.camera.vfov = 53.13010235f; /* twice the angle of tangent 1/2 */
         scene.camera.aperture = (float)A;
         scene.camera.focus = (float)F;
