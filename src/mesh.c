@@ -83,6 +83,26 @@ static void settle_normals(rt_mesh *mesh)
     mesh->normal_count = mesh->normal_capacity = 0;
 }
 
+/* Likewise the texture coordinates of triangles that have three. */
+static void settle_uvs(rt_mesh *mesh)
+{
+    bool any = false;
+    for (size_t i = 0; i < mesh->triangle_count; ++i) {
+        int32_t *uvs = mesh->uv_corners + 3 * i;
+        const bool all = uvs[0] >= 0 && uvs[1] >= 0 && uvs[2] >= 0;
+        for (int k = 0; k < 3 && !all; ++k)
+            uvs[k] = -1;
+        any = any || all;
+    }
+    if (any)
+        return;
+    free(mesh->uvs);
+    free(mesh->uv_corners);
+    mesh->uvs = NULL;
+    mesh->uv_corners = NULL;
+    mesh->uv_count = mesh->uv_capacity = 0;
+}
+
 bool rt_mesh_read(rt_mesh *mesh, const char *path, rt_status *status)
 {
     *mesh = (rt_mesh){0};
@@ -98,6 +118,7 @@ bool rt_mesh_read(rt_mesh *mesh, const char *path, rt_status *status)
         return false;
     }
     settle_normals(mesh);
+    settle_uvs(mesh);
     if (mesh->triangle_count == 0)
         rt_status_warn(status, "%s: warning: the mesh has no triangles", path);
     return true;
@@ -169,19 +190,25 @@ const char *rt_mesh_transform(rt_mesh *mesh, const double m[12])
         turn_corners(mesh->corners, mesh->triangle_count);
         if (mesh->normal_corners)
             turn_corners(mesh->normal_corners, mesh->triangle_count);
+        if (mesh->uv_corners)
+            turn_corners(mesh->uv_corners, mesh->triangle_count);
     }
     return NULL;
 }
 
 void rt_mesh_clear(rt_mesh *mesh)
 {
-    for (size_t i = 0; i < mesh->material_count; ++i)
+    for (size_t i = 0; i < mesh->material_count; ++i) {
         free(mesh->material_list[i].name);
+        free(mesh->material_list[i].texture);
+    }
     free(mesh->material_list);
     free(mesh->positions);
     free(mesh->normals);
     free(mesh->corners);
     free(mesh->normal_corners);
+    free(mesh->uvs);
+    free(mesh->uv_corners);
     free(mesh->materials);
     *mesh = (rt_mesh){0};
 }

@@ -15,6 +15,7 @@
 typedef struct rt_mesh_material {
     char *name; /* owned */
     rt_material material;
+    char *texture; /* owned: the path of its picture, or NULL */
 } rt_mesh_material;
 
 /* All arrays are owned; all indices count from 0. */
@@ -24,10 +25,13 @@ typedef struct rt_mesh {
     int32_t *corners;                /* three vertices a triangle */
     int32_t *normal_corners;         /* three normals a triangle, none of them zero, or -1 thrice;
                                         NULL where no triangle has any */
+    float *uvs;                      /* u v a texture coordinate, finite; NULL: none is used */
+    int32_t *uv_corners;             /* three of them a triangle, or -1 thrice; NULL as above */
     int32_t *materials;              /* record in `material_list` a triangle, or -1 */
     rt_mesh_material *material_list; /* as the material libraries define them, used or not */
     size_t vertex_count, vertex_capacity;
     size_t normal_count, normal_capacity;
+    size_t uv_count, uv_capacity;
     size_t triangle_count, triangle_capacity;
     size_t material_count, material_capacity;
 } rt_mesh;

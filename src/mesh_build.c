@@ -12,30 +12,36 @@ static bool has_free_index(size_t count, const char *what, rt_status *status)
            rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d %s in a mesh", INT32_MAX, what);
 }
 
-/* Adds three floats to an array that counts in threes. */
-static bool add_triple(float **array, size_t *count, size_t *capacity, const float triple[3],
-                       const char *what, rt_status *status)
+/* Adds a record of `size` floats to an array that counts in records. */
+static bool add_record(float **array, size_t *count, size_t *capacity, const float *record,
+                       size_t size, const char *what, rt_status *status)
 {
     if (*count >= *capacity) {
         if (!has_free_index(*count, what, status))
             return false;
-        if (!rt_array_grow(array, *count, capacity, 3 * sizeof **array))
+        if (!rt_array_grow(array, *count, capacity, size * sizeof **array))
             return rt_status_no_memory(status, what);
     }
-    memcpy(*array + 3 * (*count)++, triple, 3 * sizeof *triple);
+    memcpy(*array + size * (*count)++, record, size * sizeof *record);
     return true;
 }
 
 bool rt_mesh_add_vertex(rt_mesh *mesh, const float position[3], rt_status *status)
 {
-    return add_triple(&mesh->positions, &mesh->vertex_count, &mesh->vertex_capacity, position,
+    return add_record(&mesh->positions, &mesh->vertex_count, &mesh->vertex_capacity, position, 3,
                       "vertices", status);
 }
 
 bool rt_mesh_add_normal(rt_mesh *mesh, const float normal[3], rt_status *status)
 {
-    return add_triple(&mesh->normals, &mesh->normal_count, &mesh->normal_capacity, normal,
+    return add_record(&mesh->normals, &mesh->normal_count, &mesh->normal_capacity, normal, 3,
                       "normals", status);
+}
+
+bool rt_mesh_add_uv(rt_mesh *mesh, const float uv[2], rt_status *status)
+{
+    return add_record(&mesh->uvs, &mesh->uv_count, &mesh->uv_capacity, uv, 2, "texture coordinates",
+                      status);
 }
 
 bool rt_mesh_add_material(rt_mesh *mesh, const char *name, size_t length, rt_status *status)
@@ -48,11 +54,11 @@ bool rt_mesh_add_material(rt_mesh *mesh, const char *name, size_t length, rt_sta
         return rt_status_no_memory(status, "materials");
     }
     mesh->material_list[mesh->material_count++] =
-        (rt_mesh_material){copy, rt_material_make(zero, zero, zero, 1.0f)};
+        (rt_mesh_material){copy, rt_material_make(zero, zero, zero, 1.0f), NULL};
     return true;
 }
 
-/* Makes room for a triangle: three arrays grow in step, the capacity moves once all have. */
+/* Makes room for a triangle: four arrays grow in step, the capacity moves once all have. */
 static bool grow_triangles(rt_mesh *mesh, rt_status *status)
 {
     const size_t count = mesh->triangle_count;
@@ -63,6 +69,9 @@ static bool grow_triangles(rt_mesh *mesh, rt_status *status)
     capacity = mesh->triangle_capacity;
     grown = grown && rt_array_grow(&mesh->normal_corners, count, &capacity,
                                    3 * sizeof *mesh->normal_corners);
+    capacity = mesh->triangle_capacity;
+    grown =
+        grown && rt_array_grow(&mesh->uv_corners, count, &capacity, 3 * sizeof *mesh->uv_corners);
     capacity = mesh->triangle_capacity;
     grown = grown && RT_ARRAY_GROW(mesh->materials, count, &capacity);
     if (!grown)
@@ -78,12 +87,16 @@ bool rt_mesh_add_triangle(rt_mesh *mesh, rt_mesh_corner a, rt_mesh_corner b, rt_
         return false;
     const size_t i = mesh->triangle_count++;
     int32_t *corners = mesh->corners + 3 * i, *normals = mesh->normal_corners + 3 * i;
+    int32_t *uvs = mesh->uv_corners + 3 * i;
     corners[0] = a.vertex;
     corners[1] = b.vertex;
     corners[2] = c.vertex;
     normals[0] = a.normal;
     normals[1] = b.normal;
     normals[2] = c.normal;
+    uvs[0] = a.uv;
+    uvs[1] = b.uv;
+    uvs[2] = c.uv;
     mesh->materials[i] = material;
     return true;
 }

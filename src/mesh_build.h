@@ -13,10 +13,11 @@
  * elements that an index can name run out. */
 bool rt_mesh_add_vertex(rt_mesh *mesh, const float position[3], rt_status *status);
 bool rt_mesh_add_normal(rt_mesh *mesh, const float normal[3], rt_status *status);
+bool rt_mesh_add_uv(rt_mesh *mesh, const float uv[2], rt_status *status);
 bool rt_mesh_add_material(rt_mesh *mesh, const char *name, size_t length, rt_status *status);
 
 typedef struct rt_mesh_corner {
-    int32_t vertex, normal; /* normal: -1 for none */
+    int32_t vertex, normal, uv; /* normal and uv: -1 for none */
 } rt_mesh_corner;
 
 bool rt_mesh_add_triangle(rt_mesh *mesh, rt_mesh_corner a, rt_mesh_corner b, rt_mesh_corner c,

@@ -1,6 +1,9 @@
-/* Material libraries of OBJ (MTL): Ka, Kd, Ks and Ns of each material. What such a file says beyond
- * Phong's formula (textures, illumination models, transparency) is passed over. */
+/* Material libraries of OBJ (MTL): Ka, Kd, Ks, Ns and map_Kd of each material. What such a file
+ * says beyond that (illumination models, transparency, other textures) is passed over. */
 #include "mesh_build.h"
+
+#include <stdlib.h>
+
 #include "scene.h"
 
 static float clamp(float value, float most)
@@ -48,6 +51,22 @@ static bool read_statement(rt_text *text, rt_token keyword, rt_material *m)
     return good;
 }
 
+/* `map_Kd`: a file name, which may have blanks in it, or options and then a name that has none. */
+static bool read_texture(rt_text *text, const char *path, rt_mesh_material *material)
+{
+    rt_token name = rt_text_rest(text);
+    if (name.length == 0)
+        return rt_text_fail_found(text, name, "'map_Kd' takes a file name");
+    for (size_t i = name.length; name.text[0] == '-' && i > 0; --i)
+        if (rt_text_is_blank(name.text[i - 1])) {
+            name = (rt_token){name.text + i, name.length - i};
+            break;
+        }
+    free(material->texture);
+    material->texture = rt_file_beside(path, name.text, name.length);
+    return material->texture || rt_status_no_memory(text->status, "a path");
+}
+
 bool rt_mesh_read_mtl(rt_mesh *mesh, const char *path, const rt_file_text *bytes, rt_status *status)
 {
     const rt_mesh_source source = {path, bytes->bytes, bytes->length};
@@ -65,8 +84,10 @@ bool rt_mesh_read_mtl(rt_mesh *mesh, const char *path, const rt_file_text *bytes
             if (!rt_mesh_add_material(mesh, name.text, name.length, status))
                 return false;
         } else if (mesh->material_count > first) {
-            rt_material *material = &mesh->material_list[mesh->material_count - 1].material;
-            if (!read_statement(&text, keyword, material))
+            rt_mesh_material *material = &mesh->material_list[mesh->material_count - 1];
+            if (!(rt_token_equals(keyword, "map_Kd")
+                      ? read_texture(&text, path, material)
+                      : read_statement(&text, keyword, &material->material)))
                 return false;
         }
     }

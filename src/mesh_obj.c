@@ -1,6 +1,6 @@
-/* Wavefront OBJ (Advanced Visualizer Manual, appendix B1, "Object Files"): polygons with normals
- * and materials. Curves, surfaces, lines, points, textures and groups are passed over, and so is
- * what a vertex has beyond x y z.
+/* Wavefront OBJ (Advanced Visualizer Manual, appendix B1, "Object Files"): polygons with normals,
+ * texture coordinates and materials. Curves, surfaces, lines, points and groups are passed over,
+ * and so is what a vertex has beyond x y z, and a texture coordinate beyond u v.
  *
  * An index may name a vertex that is defined below. A polygon is split by the places of its
  * corners, so a file that does that is read twice, for its vertices and then for its faces. */
@@ -29,7 +29,7 @@ typedef struct reader {
     rt_mesh *mesh;
     rt_text text;
     rt_mesh_face face;
-    pool vertices, normals;
+    pool vertices, normals, uvs;
     bool is_forward; /* first round: a face names what is defined below, so faces have to wait */
     bool is_second;  /* second round: everything but faces is there already */
     int32_t material;
@@ -150,6 +150,22 @@ static bool read_normal(reader *r)
            rt_mesh_add_normal(r->mesh, normal, r->text.status);
 }
 
+/* u alone has v = 0. */
+static bool read_uv(reader *r)
+{
+    static const char *const taker = "'vt' takes one to three numbers";
+    float uv[2] = {0.0f, 0.0f};
+    r->uvs.above++;
+    if (r->is_second)
+        return true;
+    r->uvs.stored++;
+    if (!rt_text_float(&r->text, rt_text_token(&r->text), taker, &uv[0]))
+        return false;
+    const rt_token second = rt_text_token(&r->text);
+    return (second.length == 0 || rt_text_float(&r->text, second, taker, &uv[1])) &&
+           rt_mesh_add_uv(r->mesh, uv, r->text.status);
+}
+
 /* Reads the digits of an index; NULL where there are none. Values stop growing beyond what can be
  * valid. */
 static const char *read_index(const char *p, int64_t *value)
@@ -188,17 +204,29 @@ static bool resolve(reader *r, rt_token token, const pool *from, int64_t value, 
                               (long long)stored, below);
 }
 
+/* Programs that drop the texture coordinates of a file tend to leave their indices in it; those
+ * name nothing. */
+static bool resolve_uv(reader *r, rt_token token, int64_t value, int32_t *index)
+{
+    const bool names_nothing = r->uvs.stored == 0 && (value < 0 || r->is_second);
+    *index = -1;
+    return names_nothing || resolve(r, token, &r->uvs, value, index);
+}
+
 /* Reads v, v/t, v//n or v/t/n; t and n may be left out behind their slash. */
 static bool read_corner(reader *r, rt_token token, rt_mesh_corner *corner)
 {
     const char *end = token.text + token.length;
     int64_t vertex, texture, normal;
-    corner->normal = -1;
+    corner->normal = corner->uv = -1;
     const char *p = read_index(token.text, &vertex);
     if (p && !resolve(r, token, &r->vertices, vertex, &corner->vertex))
         return false;
-    if (p && *p == '/' && ++p < end && *p != '/')
+    if (p && *p == '/' && ++p < end && *p != '/') {
         p = read_index(p, &texture);
+        if (p && !resolve_uv(r, token, texture, &corner->uv))
+            return false;
+    }
     if (p && p < end && *p == '/' && ++p < end) {
         p = read_index(p, &normal);
         if (p && !resolve(r, token, &r->normals, normal, &corner->normal))
@@ -235,6 +263,8 @@ static bool read_line(reader *r)
         return r->is_forward || read_face(r);
     if (keyword.length == 2 && memcmp(keyword.text, "vn", 2) == 0)
         return read_normal(r);
+    if (keyword.length == 2 && memcmp(keyword.text, "vt", 2) == 0)
+        return read_uv(r);
     if (rt_token_equals(keyword, "usemtl"))
         return use_material(r);
     if (rt_token_equals(keyword, "mtllib") && !r->is_second)
@@ -245,7 +275,7 @@ static bool read_line(reader *r)
 static bool read_lines(reader *r)
 {
     r->text.cursor = r->text.start;
-    r->vertices.above = r->normals.above = 0;
+    r->vertices.above = r->normals.above = r->uvs.above = 0;
     r->material = -1;
     r->unknown_count = 0;
     for (; r->text.cursor < r->text.end; rt_text_next_line(&r->text))
@@ -282,7 +312,8 @@ bool rt_mesh_read_obj(rt_mesh *mesh, const rt_mesh_source *source, rt_status *st
     reader r = {.mesh = mesh,
                 .text = rt_mesh_text(source, status),
                 .vertices = {"vertices", 0, 0},
-                .normals = {"normals", 0, 0}};
+                .normals = {"normals", 0, 0},
+                .uvs = {"texture coordinates", 0, 0}};
     const bool good = read_rounds(&r);
     tdestroy(r.names, free);
     rt_mesh_face_clear(&r.face);

@@ -176,7 +176,7 @@ static bool read_corner(rows *r, const rt_ply_property *property, bool takes_end
     if ((index < 0 || index >= r->header->vertex_count) && !(takes_end && index == -1))
         return FAIL_AT(r, at, "found the vertex %lld; this file has vertices from 0 to %lld",
                        (long long)index, (long long)r->header->vertex_count - 1);
-    *corner = (rt_mesh_corner){(int32_t)index, r->header->has_normals ? (int32_t)index : -1};
+    *corner = (rt_mesh_corner){(int32_t)index, r->header->has_normals ? (int32_t)index : -1, -1};
     return true;
 }
 
@@ -227,7 +227,7 @@ static bool read_strips(rows *r, const rt_ply_property *property)
         return false;
     strip s = {.held = 0};
     for (int64_t i = 0; i < count; ++i) {
-        rt_mesh_corner corner = {0, -1};
+        rt_mesh_corner corner = {0, -1, -1};
         if (!read_corner(r, property, true, &corner))
             return false;
         if (corner.vertex < 0)

@@ -18,9 +18,9 @@ uint64_t rt_mesh_stl_size(uint64_t triangles)
 static bool add_facet(rt_mesh *mesh, rt_status *status)
 {
     const int32_t last = (int32_t)mesh->vertex_count - 1;
-    return rt_mesh_add_triangle(mesh, (rt_mesh_corner){last - 2, -1},
-                                (rt_mesh_corner){last - 1, -1}, (rt_mesh_corner){last, -1}, -1,
-                                status);
+    return rt_mesh_add_triangle(mesh, (rt_mesh_corner){last - 2, -1, -1},
+                                (rt_mesh_corner){last - 1, -1, -1}, (rt_mesh_corner){last, -1, -1},
+                                -1, status);
 }
 
 static bool read_facet(rt_mesh *mesh, const rt_mesh_source *source, const char *at,

@@ -6,6 +6,7 @@
 
 #include "file.h"
 #include "mesh.h"
+#include "texture.h"
 
 /* Fields of `mesh` in the grammar's order; the material is the caller's. */
 enum field { PATH, MATERIAL, SCALE, ROTATE, TRANSLATE };
@@ -48,6 +49,27 @@ static bool is_smooth(const rt_mesh *mesh, size_t triangle)
     return mesh->normal_corners && mesh->normal_corners[3 * triangle] >= 0;
 }
 
+static bool has_uvs(const rt_mesh *mesh, size_t triangle)
+{
+    return mesh->uv_corners && mesh->uv_corners[3 * triangle] >= 0;
+}
+
+/* Adds a material of the file with its texture; one that cannot be taken is left out, as a material
+ * library is. */
+static bool add_material(rt_scene *scene, const rt_mesh_material *m, rt_status *status)
+{
+    rt_material material = m->material;
+    char reason[RT_TEXTURE_REASON_SIZE];
+    int32_t texture = -1;
+    if (m->texture && !rt_texture_load(scene, m->texture, &texture, reason))
+        rt_status_warn(status,
+                       "%s:%d:1: warning: the texture '%.*s' of material '%.*s' is left out: %s",
+                       scene->here.file, scene->here.line, RT_PATH_SHOWN, m->texture, RT_PATH_SHOWN,
+                       m->name, reason);
+    material.texture = texture;
+    return rt_scene_add_material(scene, &material, status);
+}
+
 /* Replaces each triangle's material by its index in the scene, and adds those of the file that a
  * triangle has; what no triangle calls for is not there. */
 static bool add_materials(rt_scene *scene, rt_mesh *mesh, rt_status *status)
@@ -63,8 +85,7 @@ static bool add_materials(rt_scene *scene, rt_mesh *mesh, rt_status *status)
         int32_t *index = &indices[mesh->materials[i]];
         if (*index < 0) {
             *index = (int32_t)scene->material_count;
-            good = rt_scene_add_material(scene, &mesh->material_list[mesh->materials[i]].material,
-                                         status);
+            good = add_material(scene, &mesh->material_list[mesh->materials[i]], status);
         }
         mesh->materials[i] = *index;
     }
@@ -90,7 +111,12 @@ static bool add_triangles(rt_scene *scene, const rt_mesh *mesh, size_t *degenera
         triangle = (rt_triangle){corners[0], corners[1], corners[2], corners[3], corners[4],
                                  corners[5], corners[6], corners[7], corners[8]};
         *degenerate_count += !rt_triangle_settle(&triangle, normals);
-        if (!rt_scene_add_triangle(scene, &triangle, normals, mesh->materials[i], status))
+        float uvs[RT_UV_COMPONENTS];
+        for (size_t k = 0; k < 3 && has_uvs(mesh, i); ++k)
+            memcpy(uvs + 2 * k, mesh->uvs + 2 * (size_t)mesh->uv_corners[3 * i + k],
+                   2 * sizeof *uvs);
+        if (!rt_scene_add_triangle(scene, &triangle, normals, mesh->materials[i], status) ||
+            (has_uvs(mesh, i) && !rt_scene_set_uvs(scene, uvs, status)))
             return false;
     }
     return true;
@@ -101,7 +127,7 @@ static bool add_mesh(rt_scene *scene, rt_mesh *mesh, size_t *degenerate_count, b
                      rt_status *status)
 {
     const size_t material_count = scene->material_count, triangle_count = scene->triangle_count;
-    const size_t normal_count = scene->normal_count;
+    const size_t normal_count = scene->normal_count, uv_count = scene->uv_count;
     size_t smooth_count = 0;
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         smooth_count += is_smooth(mesh, i);
@@ -112,6 +138,7 @@ static bool add_mesh(rt_scene *scene, rt_mesh *mesh, size_t *degenerate_count, b
     scene->material_count = material_count;
     scene->triangle_count = triangle_count;
     scene->normal_count = normal_count;
+    scene->uv_count = uv_count;
     return false;
 }
 

@@ -26,6 +26,34 @@ static void obj_variants(void **state)
     assert_empty(&mesh);
 }
 
+static void obj_texture_coordinates(void **state)
+{
+    (void)state;
+    rt_mesh mesh = GOOD(SQUARE "vt 0.25\nvt 1 -2\nvt 3 4 5\nvn 0 0 1\nf 1/1 2/2 3/3\n"
+                               "f 1/1/1 2/2/1 3/-1/1\nf 1/1 2/2 3\nf 1/2 2/4 3/3\nvt 7 8\n"
+                               "f 1/4 2/3 3/2 4/1\n");
+    static const int32_t expected[] = {0, 1, 2, 0, 1, 2, -1, -1, -1, 1, 3, 2, 3, 2, 1, 3, 1, 0};
+    assert_indices(mesh.uv_corners, 3 * mesh.triangle_count, expected, 18);
+    FLOATS(mesh.uvs, 0.25, 0, 1, -2, 3, 4, 7, 8);
+    NORMALS(mesh, -1, -1, -1, 0, 0, 0, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1);
+    const double mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    assert_null(rt_mesh_transform(&mesh, mirror));
+    static const int32_t turned[] = {0, 2, 1};
+    assert_indices(mesh.uv_corners, 3, turned, 3);
+    rt_mesh_clear(&mesh);
+    /* Indices into nothing are left over from a program that dropped what they name. */
+    mesh = GOOD(SQUARE "f 1/7 2/8 3/9\nf 1/-1 2/-1 3/-1\n");
+    assert_null(mesh.uvs);
+    assert_null(mesh.uv_corners);
+    rt_mesh_clear(&mesh);
+    BAD(SQUARE "vt 0 0\nf 1/1 2/2 3/1\n", ":6:7: error: found '2/2'; texture coordinates go from "
+                                          "1 to 1, or from -1 to -1 here");
+    BAD(SQUARE "vt 0 0\nf 1/1 2/-2 3/1\n", ":6:7: error: found '2/-2'; texture coordinates go from "
+                                           "1 to 1, or from -1 to -1 here");
+    BAD("vt\n", ":1:3: error: the line ends; 'vt' takes one to three numbers");
+    BAD("vt 0 x\n", ":1:6: error: found 'x'; 'vt' takes one to three numbers");
+}
+
 static void obj_polygons(void **state)
 {
     (void)state;
@@ -97,7 +125,8 @@ static void mtl_colours(void **state)
     (void)state;
     test_write_text(test_path("my red.mtl"),
                     "# c\nKd 1 1 1\nnewmtl red paint \r\nKa 0.25 0 0\r\nKd 2 -1 0.5\n\tKs .5\n"
-                    "Ns 2.5\nillum 2\nmap_Kd x.png\nnewmtl plain\nnewmtl red paint\nKd 0 1 0");
+                    "Ns 2.5\nillum 2\nmap_Kd a b.png \r\nnewmtl plain\nmap_Kd -s 1 1 1 -clamp on "
+                    "c.png\nnewmtl red paint\nKd 0 1 0");
     test_write_text(test_path("b.mtl"), "newmtl plain\nKd 1 1 1\nnewmtl blue\nKd 0 0 1\nNs 1e9\n");
     rt_mesh mesh = GOOD("mtllib my red.mtl\nmtllib b.mtl b.mtl\n" SQUARE
                         "f 1 2 3\nusemtl red paint\nf 1 2 3\nusemtl blue\nf 1 2 3 4\n");
@@ -109,6 +138,9 @@ static void mtl_colours(void **state)
     assert_string_equal(mesh.material_list[0].name, "red paint");
     FLOATS(&red->ka_r, 0.25, 0, 0, 1, 0, 0.5, 0.5, 0.5, 0.5, 2.5);
     assert_int_equal(red->exponent, -1);
+    assert_string_equal(mesh.material_list[0].texture, test_path("a b.png"));
+    assert_string_equal(mesh.material_list[1].texture, test_path("c.png"));
+    assert_null(mesh.material_list[2].texture);
     FLOATS(&blue->ka_r, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1e6);
     rt_mesh_clear(&mesh);
     const char *text = "mtllib b.mtl no.mtl\n" SQUARE "usemtl green\nf 1 2 3\n";
@@ -131,6 +163,7 @@ static void mtl_errors(void **state)
         {"newmtl\n", ":1:7: error: the line ends; 'newmtl' takes a name"},
         {"newmtl a\nKd 1 x 1\n", ":2:6: error: found 'x'; 'Kd' takes three numbers from 0 to 1"},
         {"newmtl a\nKa 1 1\n", ":2:7: error: the line ends; 'Ka' takes three numbers from 0 to 1"},
+        {"newmtl a\nmap_Kd\n", ":2:7: error: the line ends; 'map_Kd' takes a file name"},
         {"newmtl a\nNs nan\n", ":2:4: error: found 'nan'; 'Ns' takes a number from 0 up"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         rt_mesh mesh;
@@ -148,9 +181,13 @@ static void mtl_errors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(obj_variants), cmocka_unit_test(obj_polygons),
-        cmocka_unit_test(obj_order),    cmocka_unit_test(obj_errors),
-        cmocka_unit_test(mtl_colours),  cmocka_unit_test(mtl_errors),
+        cmocka_unit_test(obj_texture_coordinates),
+        cmocka_unit_test(obj_variants),
+        cmocka_unit_test(obj_polygons),
+        cmocka_unit_test(obj_order),
+        cmocka_unit_test(obj_errors),
+        cmocka_unit_test(mtl_colours),
+        cmocka_unit_test(mtl_errors),
     };
     return cmocka_run_group_tests(tests, name_the_mesh, NULL);
 }

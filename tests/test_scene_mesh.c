@@ -153,6 +153,40 @@ static void materials_of_the_file(void **state)
     rt_scene_clear(&s);
 }
 
+/* Texture coordinates come with the triangles, the pictures that materials name with those. */
+static void textures_of_the_file(void **state)
+{
+    (void)state;
+    /* Binary pictures of one pixel: 58 bytes of BMP. */
+    static const unsigned char bmp[58] = {'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0,  54, 0, 0, 0,  40,
+                                          0,   0,   0,  1, 0, 0, 0, 1, 0, 0,  0,  1, 0, 24, 0,
+                                          0,   0,   0,  0, 4, 0, 0, 0, 0, 0,  0,  0, 0, 0,  0,
+                                          0,   0,   0,  0, 0, 0, 0, 0, 0, 10, 20, 30};
+    test_write_file(test_path("dot.bmp"), bmp, sizeof bmp);
+    test_write_text(test_path("uv.mtl"), "newmtl a\nKd 1 1 1\nmap_Kd dot.bmp\nnewmtl b\n"
+                                         "map_Kd none.png\nnewmtl c\nmap_Kd idle.png\n");
+    test_write_text(test_path("uv.obj"), "mtllib uv.mtl\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl a\n" AXES
+                                         "f 1/1 2/2 3/3\nusemtl b\nf 1/3 2/2 3/1\n");
+    rt_scene s;
+    rt_status status;
+    assert_true(
+        read_scene(&s, "rt 1\nmaterial m\nmesh \"uv.obj\"\nmesh \"uv.obj\" material m\n", &status));
+    assert_int_equal(s.texture_count, 1);
+    assert_int_equal(s.texels[0], 0x0a141e);
+    assert_int_equal(s.materials[1].texture, 0);
+    assert_int_equal(s.materials[2].texture, -1);
+    assert_int_equal(s.material_places[1].line, 3);
+    const int32_t records[6] = {-1, 0, 1, -1, 2, 3};
+    assert_memory_equal(s.triangle_uvs, records, sizeof records);
+    const float second[RT_UV_COMPONENTS] = {0, 1, 1, 0, 0, 0};
+    assert_memory_equal(s.uvs + RT_UV_COMPONENTS, second, sizeof second);
+    assert_non_null(strstr(status.text, "scene.txt:3:1: warning: the texture '"));
+    assert_non_null(strstr(status.text, "none.png' of material 'b' is left out: No such file"));
+    assert_null(strstr(status.text, "idle.png"));
+    rt_scene_clear(&s);
+    rt_status_clear(&status);
+}
+
 static void paths_are_relative_to_their_file(void **state)
 {
     (void)state;
@@ -235,6 +269,7 @@ int main(void)
         cmocka_unit_test(scaled_then_turned_then_moved),
         cmocka_unit_test(normals_turn_with_it),
         cmocka_unit_test(materials_of_the_file),
+        cmocka_unit_test(textures_of_the_file),
         cmocka_unit_test(paths_are_relative_to_their_file),
         cmocka_unit_test(triangles_without_area_are_counted),
         cmocka_unit_test(a_refused_mesh_leaves_nothing),
