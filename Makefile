@@ -20,8 +20,9 @@ PACKAGES_CLANG := clang
 PACKAGES_BENCH := libembree-dev tachyon povray
 LIBRARIES := OpenCL jansson libdeflate
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl tile.cl intersect.cl \
-           packet.cl traverse.cl surface.cl camera.cl trace.cl shade.cl resolve.cl)
+KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl sampling.cl tile.cl intersect.cl \
+           packet.cl traverse.cl surface.cl camera.cl trace.cl probe.cl pattern.cl path.cl shade.cl queue.cl \
+           resolve.cl)
 
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
 # No contraction: a multiply-add is fused where the code says fma, and nowhere else.

@@ -1,24 +1,98 @@
-/* Stage 1: the primary rays of a tile, unit directions through the pixels' centres. */
+/* Stage 1: the primary rays of a tile, unit directions through the pixels' centres or, of several
+ * samples, through points about them. */
+
+#if RT_ANTIALIAS
+/* From a point of the unit interval to an offset from the pixel's centre, in pixels: even over the
+ * pixel, or like a tent over it and half of each neighbour. */
+INLINE number filtered(number t, const int tent)
+{
+    const number twice = t + t;
+    const number side = twice < (number)1.0f ? ROOT_1(twice) - (number)1.0f
+                                             : (number)1.0f - ROOT_1((number)2.0f - twice);
+    return tent ? side : t - (number)0.5f;
+}
+#endif
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays)
+rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays
+#if RT_ANTIALIAS || RT_LENS || RT_NEXT
+          ,
+          const rt_turn turn
+#endif
+#if RT_ANTIALIAS || RT_LENS
+          ,
+          const int samples, const int flags
+#endif
+#if RT_SUM
+          ,
+          __global float *colors
+#endif
+#if RT_NEXT
+          ,
+          __global int *home, __global number *paths, __global int *marks
+#endif
+)
 {
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
     /* Whole numbers, exact in float; the pixel size is in the frame's vectors. */
-    const number across = (number)(2 * (tile.x + p.column) + 1 - frame.width);
-    const number upward = (number)(frame.height - 1 - 2 * (tile.y + p.row));
-    const vec3 through = {fma(frame.right_x, across, fma(frame.up_x, upward, frame.forward_x)),
-                          fma(frame.right_y, across, fma(frame.up_y, upward, frame.forward_y)),
-                          fma(frame.right_z, across, fma(frame.up_z, upward, frame.forward_z))};
-    const vec3 direction = SCALE(through, RECIPROCAL_LENGTH(through));
-    rays[RT_RAY_OX * (size_t)stride + i] = frame.ox;
-    rays[RT_RAY_OY * (size_t)stride + i] = frame.oy;
-    rays[RT_RAY_OZ * (size_t)stride + i] = frame.oz;
-    rays[RT_RAY_DX * (size_t)stride + i] = direction.x;
-    rays[RT_RAY_DY * (size_t)stride + i] = direction.y;
-    rays[RT_RAY_DZ * (size_t)stride + i] = direction.z;
-    rays[RT_RAY_TMIN * (size_t)stride + i] = 0.0f;
+    number across = (number)(2 * (tile.x + p.column) + 1 - frame.width);
+    number upward = (number)(frame.height - 1 - 2 * (tile.y + p.row));
+#if RT_ANTIALIAS
+    if (ON(ANTIALIAS)) {
+        number u, v;
+        stratified(turn.sample, samples,
+                   seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_PIXEL),
+                   RT_DIMENSION_PIXEL, &u, &v);
+        const number dx = filtered(u, flags & RT_FLAG_TENT);
+        const number dy = filtered(v, flags & RT_FLAG_TENT);
+        across = across + (dx + dx);
+        upward = upward - (dy + dy);
+    }
+#endif
+    const vec3 right = {frame.right_x, frame.right_y, frame.right_z};
+    const vec3 up = {frame.up_x, frame.up_y, frame.up_z};
+    const vec3 forward = {frame.forward_x, frame.forward_y, frame.forward_z};
+    const vec3 level = ADD_SCALED(up, upward, forward);
+    vec3 through = ADD_SCALED(right, across, level);
+    vec3 origin = {frame.ox, frame.oy, frame.oz};
+#if RT_LENS
+    if (ON(LENS)) {
+        number u, v, dx, dy;
+        stratified(turn.sample, samples,
+                   seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_LENS), RT_DIMENSION_LENS,
+                   &u, &v);
+        disk(u, v, &dx, &dy);
+        const vec3 lens_right = {frame.lens_right_x, frame.lens_right_y, frame.lens_right_z};
+        const vec3 lens_up = {frame.lens_up_x, frame.lens_up_y, frame.lens_up_z};
+        const vec3 aside = SCALE(lens_right, dx);
+        const vec3 lens = ADD_SCALED(lens_up, dy, aside);
+        const vec3 back = {-lens.x, -lens.y, -lens.z};
+        const number focus = frame.focus;
+        through = ADD_SCALED(through, focus, back);
+        origin = (vec3){origin.x + lens.x, origin.y + lens.y, origin.z + lens.z};
+        make_unit(&through);
+    } else
+#endif
+        through = SCALE(through, RECIPROCAL_LENGTH(through));
+    const size_t step = (size_t)stride;
+    STORE3(origin, rays + RT_RAY_OX * step, step, i);
+    STORE3(through, rays + RT_RAY_DX * step, step, i);
+    rays[RT_RAY_TMIN * step + i] = 0.0f;
     /* A ray that hangs over the tile's edge ends before it begins. */
-    rays[RT_RAY_TMAX * (size_t)stride + i] = p.inside ? INFINITY : -1.0f;
+    rays[RT_RAY_TMAX * step + i] = p.inside ? INFINITY : -1.0f;
+#if RT_SUM
+    if (turn.sample == 0)
+        colors[i] = colors[step + i] = colors[2 * step + i] = 0.0f;
+#endif
+#if RT_NEXT
+    home[i] = (int)i;
+    paths[RT_PATH_WEIGHT * step + i] = 1.0f;
+    paths[RT_PATH_TINT_R * step + i] = 1.0f;
+    paths[RT_PATH_TINT_G * step + i] = 1.0f;
+    paths[RT_PATH_TINT_B * step + i] = 1.0f;
+    marks[RT_MARK_BOUNCE * step + i] = 0;
+    marks[RT_MARK_MEDIUM * step + i] = RT_OUTSIDE;
+    marks[RT_MARK_WAITING * step + i] = 0;
+#endif
 }

@@ -39,12 +39,86 @@
 #error "RT_STACK must be from 16 to 4096"
 #endif
 
+/* What the scene calls for; what is 0 is not compiled.
+ *
+ * RT_ANTIALIAS several samples a pixel; RT_LENS depth of field; RT_SHADOWS 1 for lights that are
+ * points, 2 for balls too; RT_REFLECT mirror rays; RT_REFRACT refracted ones, RT_ABSORB losses on
+ * their way; RT_AMBIENT_OCCLUSION, RT_FOG, RT_GRADIENT, RT_CHECKER, RT_TEXTURE as in the scene. */
+#ifndef RT_ANTIALIAS
+#define RT_ANTIALIAS 0
+#endif
+#ifndef RT_LENS
+#define RT_LENS 0
+#endif
+#ifndef RT_SHADOWS
+#define RT_SHADOWS 0
+#endif
+#ifndef RT_REFLECT
+#define RT_REFLECT 0
+#endif
+#ifndef RT_REFRACT
+#define RT_REFRACT 0
+#endif
+#ifndef RT_ABSORB
+#define RT_ABSORB 0
+#endif
+#ifndef RT_AMBIENT_OCCLUSION
+#define RT_AMBIENT_OCCLUSION 0
+#endif
+#ifndef RT_FOG
+#define RT_FOG 0
+#endif
+#ifndef RT_GRADIENT
+#define RT_GRADIENT 0
+#endif
+#ifndef RT_CHECKER
+#define RT_CHECKER 0
+#endif
+#ifndef RT_TEXTURE
+#define RT_TEXTURE 0
+#endif
+#if (RT_ANTIALIAS | RT_LENS | RT_REFLECT | RT_REFRACT | RT_ABSORB | RT_AMBIENT_OCCLUSION |         \
+     RT_FOG | RT_GRADIENT | RT_CHECKER | RT_TEXTURE) &                                             \
+    ~1
+#error "an effect must be 0 or 1"
+#endif
+#if RT_SHADOWS < 0 || RT_SHADOWS > 2
+#error "RT_SHADOWS must be 0, 1 or 2"
+#endif
+#if RT_ABSORB && !RT_REFRACT
+#error "RT_ABSORB needs RT_REFRACT"
+#endif
+
+/* Effects that are compiled in are switched by bits of an argument `flags`, RT_FLAG_... of types.h;
+ * without RT_SWITCHED what is compiled in is on. */
+#ifndef RT_SWITCHED
+#define RT_SWITCHED 0
+#endif
+#if RT_SWITCHED != 0 && RT_SWITCHED != 1
+#error "RT_SWITCHED must be 0 or 1"
+#endif
+#if RT_SWITCHED
+#define ON(effect) ((flags & RT_FLAG_##effect) != 0)
+#else
+#define ON(effect) RT_##effect
+#endif
+
+/* What follows from the effects: rays that go on from where others end, colours that are sums, rays
+ * that ask whether the way is free, random points. */
+#define RT_NEXT (RT_REFLECT || RT_REFRACT)
+#define RT_SUM (RT_ANTIALIAS || RT_NEXT)
+#define RT_PROBES (RT_SHADOWS || RT_AMBIENT_OCCLUSION)
+#define RT_RANDOM (RT_ANTIALIAS || RT_LENS || RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION)
+
 /* Whether there is a kernel for any hit beside that for the nearest. */
 #ifndef RT_OCCLUSION
 #define RT_OCCLUSION 0
 #endif
 #if RT_OCCLUSION != 0 && RT_OCCLUSION != 1
 #error "RT_OCCLUSION must be 0 or 1"
+#endif
+#if RT_PROBES && !RT_OCCLUSION
+#error "RT_SHADOWS and RT_AMBIENT_OCCLUSION need RT_OCCLUSION"
 #endif
 
 /* Whether the scene has spheres, and whether it has triangles. */

@@ -1,4 +1,5 @@
-/* Stage 3: from hits to colours, by Phong's formula as it was written (Phong 1975):
+/* Stage 3, after the probes where there are some: from hits to colours, by Phong's formula as it
+ * was written (Phong 1975):
  *
  *     I = Ia ka + sum over lights of Ip (kd max(0, N.L) + ks max(0, R.V)^n)
  *
@@ -29,75 +30,222 @@ INLINE float highlight(float cosine, int exponent, float shininess)
 #endif
 }
 
+#if RT_SPHERES || RT_TRIANGLES
+/* What one light adds at a surface of a material whose kd is given; `open` is the part of it that
+ * is not in shadow. */
+INLINE void add_light(const rt_light light, const rt_material m, vec3 kd, const surface *s,
+                      vec3 direction, number open, vec3 *color)
+{
+    const vec3 normal = s->normal;
+    const number w = -light.w;
+    const vec3 place = {light.x, light.y, light.z};
+    vec3 l = ADD_SCALED(s->point, w, place);
+    make_unit(&l);
+    /* A light exactly at the point has no direction and gives nothing. */
+    const number lit = isfinite(l.x) ? 1.0f : 0.0f;
+    const number n_dot_l = DOT(normal, l);
+    const number twice = 2.0f * n_dot_l;
+    const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),
+                           fma(twice, normal.z, -l.z)};
+    const number r_dot_v = -DOT(mirrored, direction);
+    const number diffuse = lit * (n_dot_l > 0.0f ? n_dot_l : 0.0f);
+    const number specular =
+        lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m.exponent, m.shininess);
+    color->x = fma((number)light.r * open, fma((number)m.ks_r, specular, kd.x * diffuse), color->x);
+    color->y = fma((number)light.g * open, fma((number)m.ks_g, specular, kd.y * diffuse), color->y);
+    color->z = fma((number)light.b * open, fma((number)m.ks_b, specular, kd.z * diffuse), color->z);
+}
+#endif
+
+/* ambient light's row in `open` comes after the lights'. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_shade(const int stride, __global const number *rays, __global const int *hit_index,
-         __global const int *hit_slot, __global const number *hit_array,
-         __global const rt_sphere_block *spheres, const int sphere_count,
-         __global const rt_triangle_block *triangles, __global const int *material_of,
-         __global const int *normals_of, __global const float *normals,
-         __global const rt_material *materials, __global const rt_light *lights,
-         const int light_count, const rt_surround surround, __global float *colors)
+rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
+         __global const rt_light *lights, const int light_count, const rt_surround surround,
+         __global float *colors
+#if RT_GRADIENT
+         ,
+         const rt_gradient gradient
+#endif
+#if RT_FOG
+         ,
+         const rt_fog fog
+#endif
+#if RT_TEXTURE
+         ,
+         __global const int *uvs_of, __global const float *uvs, __global const rt_texture *textures,
+         __global const uint *texels
+#endif
+#if RT_PROBES
+         ,
+         __global const int *open
+#endif
+#if RT_AMBIENT_OCCLUSION
+         ,
+         const rt_crevice crevice
+#endif
+#if RT_NEXT
+         ,
+         const int depth, __global const int *home, __global number *paths, __global int *marks,
+         __global number *next_rays, __global int *next_home
+#endif
+#if RT_REFRACT
+         ,
+         __global number *waiting, __global int *waiting_marks
+#endif
+#if RT_SWITCHED
+         ,
+         const int flags
+#endif
+)
 {
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
+#if RT_NEXT
+    if (!(rays[RT_RAY_TMIN * step + i] < rays[RT_RAY_TMAX * step + i])) {
+        next_rays[RT_RAY_TMIN * step + i] = 0.0f;
+        next_rays[RT_RAY_TMAX * step + i] = -1.0f;
+        return;
+    }
+#endif
+#if RT_NEXT
+    const int slot = home[i];
+    next_ray from;
+    from.weight = paths[RT_PATH_WEIGHT * step + (size_t)slot];
+    from.tint = LOAD3(paths + RT_PATH_TINT_R * step, step, (size_t)slot);
+    from.bounce = marks[RT_MARK_BOUNCE * step + (size_t)slot];
+    from.medium = RT_REFRACT ? marks[RT_MARK_MEDIUM * step + (size_t)slot] : RT_OUTSIDE;
+#endif
     vec3 color = {surround.background_r, surround.background_g, surround.background_b};
-
+#if RT_GRADIENT
+    if (ON(GRADIENT)) {
+        const vec3 d = LOAD3(rays + RT_RAY_DX * step, step, i);
+        const vec3 up = {gradient.up_x, gradient.up_y, gradient.up_z};
+        const number rise = fma((number)0.5f, DOT(d, up), (number)0.5f);
+        const vec3 top = {gradient.top_r, gradient.top_g, gradient.top_b};
+        const vec3 difference = SUB(vec3, top, color);
+        color = ADD_SCALED(difference, rise, color);
+    }
+#endif
+    int index = RT_MISS;
 #if RT_SPHERES || RT_TRIANGLES
-    const int index = hit_index[i];
+    index = hit_index[i];
+    surface s;
+    vec3 direction;
+    rt_material m;
+    int material = 0;
     if (index != RT_MISS) {
-        const int slot = hit_slot[i];
-        const vec3 origin = LOAD3(rays, stride, i);
-        const vec3 direction = LOAD3(rays + RT_RAY_DX * step, stride, i);
-        const number t = hit_array[RT_HIT_T * step + i];
-        const int place = slot % RT_BLOCK_PRIMITIVES;
-        surface s;
-        s.point = (vec3){fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
-                         fma(t, direction.z, origin.z)};
-#if RT_SPHERES
-        if (index < sphere_count)
-            sphere_surface(spheres + slot / RT_BLOCK_PRIMITIVES, place, direction, &s);
-#endif
-#if RT_SPHERES && RT_TRIANGLES
-        else
-#endif
-#if RT_TRIANGLES
-        {
-            const number u = hit_array[RT_HIT_U * step + i];
-            const number v = hit_array[RT_HIT_V * step + i];
-            triangle_surface(triangles + slot / RT_BLOCK_PRIMITIVES, place, u, v, direction, &s);
-#if RT_SMOOTH
-            const int record = normals_of[index - sphere_count];
-            if (record >= 0)
-                smooth_normal(normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s.normal);
-#endif
+        const traced w = TRACED;
+        direction = LOAD3(rays + RT_RAY_DX * step, step, i);
+        surface_of(&w, i, index, direction, &s);
+        material = material_of[index];
+        m = materials[material];
+        vec3 ka = {m.ka_r, m.ka_g, m.ka_b};
+        vec3 kd = {m.kd_r, m.kd_g, m.kd_b};
+#if RT_CHECKER
+        if (ON(CHECKER) && m.cell > 0.0f && in_odd_cell(s.point, (number)m.cell)) {
+            const vec3 tone = {m.checker_r, m.checker_g, m.checker_b};
+            ka = MULTIPLY(ka, tone);
+            kd = MULTIPLY(kd, tone);
         }
 #endif
-        const vec3 point = s.point, normal = s.normal;
-        const rt_material m = materials[material_of[index]];
-        color = (vec3){surround.ambient_r * m.ka_r, surround.ambient_g * m.ka_g,
-                       surround.ambient_b * m.ka_b};
+#if RT_TEXTURE
+        if (ON(TEXTURE) && m.texture >= 0) {
+            const pictures p = {uvs_of, uvs, textures, texels};
+            number x, y;
+            vec3 tone;
+            picture_point(&p, &w, i, index, &s, &x, &y);
+            picture_color(&p, textures[m.texture], m.nearest, x, y, &tone);
+            ka = MULTIPLY(ka, tone);
+            kd = MULTIPLY(kd, tone);
+        }
+#endif
+        const vec3 ambient = {surround.ambient_r, surround.ambient_g, surround.ambient_b};
+        color = MULTIPLY(ambient, ka);
+#if RT_AMBIENT_OCCLUSION
+        if (ON(AMBIENT_OCCLUSION)) {
+            const number part = (number)open[(size_t)light_count * step + i];
+            color = SCALE(color, part / (number)crevice.samples);
+        }
+#endif
         for (int k = 0; k < light_count; ++k) {
             const rt_light light = lights[k];
-            vec3 l = {fma(-light.w, point.x, light.x), fma(-light.w, point.y, light.y),
-                      fma(-light.w, point.z, light.z)};
-            make_unit(&l);
-            /* A light exactly at the point has no direction and gives nothing. */
-            const float lit = isfinite(l.x) ? 1.0f : 0.0f;
-            const number n_dot_l = DOT(normal, l);
-            const number twice = 2.0f * n_dot_l;
-            const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),
-                                   fma(twice, normal.z, -l.z)};
-            const number r_dot_v = -DOT(mirrored, direction);
-            const float diffuse = lit * (n_dot_l > 0.0f ? n_dot_l : 0.0f);
-            const float specular =
-                lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m.exponent, m.shininess);
-            color.x = fma(light.r, fma(m.ks_r, specular, m.kd_r * diffuse), color.x);
-            color.y = fma(light.g, fma(m.ks_g, specular, m.kd_g * diffuse), color.y);
-            color.z = fma(light.b, fma(m.ks_b, specular, m.kd_b * diffuse), color.z);
+            number free = 1.0f;
+#if RT_SHADOWS
+            if (ON(SHADOWS) && light.shadow)
+                free = (number)open[(size_t)k * step + i] / (number)light.samples;
+#endif
+            add_light(light, m, kd, &s, direction, free, &color);
         }
     }
 #endif
-    colors[i] = color.x;
-    colors[step + i] = color.y;
-    colors[2 * step + i] = color.z;
+#if RT_ABSORB
+    if (ON(ABSORB) && from.medium != RT_OUTSIDE) {
+        const rt_material in = materials[from.medium];
+        const number t = hit_array[RT_HIT_T * step + i];
+        from.tint.x *= in.absorb_r > 0.0f ? exp((number)-in.absorb_r * t) : (number)1.0f;
+        from.tint.y *= in.absorb_g > 0.0f ? exp((number)-in.absorb_g * t) : (number)1.0f;
+        from.tint.z *= in.absorb_b > 0.0f ? exp((number)-in.absorb_b * t) : (number)1.0f;
+    }
+#endif
+#if RT_FOG
+    number clear = 1.0f; /* the part that the fog on the ray's way lets through */
+#if RT_NEXT
+    if (ON(FOG) && from.medium == RT_OUTSIDE)
+#else
+    if (ON(FOG))
+#endif
+    {
+        const number t = hit_array[RT_HIT_T * step + i];
+        clear = index == RT_MISS ? (number)0.0f : exp((number)-fog.density * t);
+        const vec3 veil = {fog.r, fog.g, fog.b};
+        const vec3 thin = SCALE(veil, (number)1.0f - clear);
+        color = ADD_SCALED(color, clear, thin);
+    }
+#endif
+#if RT_NEXT
+    const vec3 part = SCALE(from.tint, from.weight);
+    const vec3 sum = LOAD3(colors, step, (size_t)slot);
+    color = (vec3){fma(part.x, color.x, sum.x), fma(part.y, color.y, sum.y),
+                   fma(part.z, color.z, sum.z)};
+    STORE3(color, colors, step, (size_t)slot);
+    if (!ON(NEXT))
+        return;
+#if RT_FOG
+    from.tint = SCALE(from.tint, clear);
+#endif
+    next_ray r;
+    int has = 0;
+#if RT_SPHERES || RT_TRIANGLES
+    if (index != RT_MISS && from.bounce < depth) {
+        number reflected_part = m.reflect;
+#if RT_REFRACT
+        next_ray aside;
+        has = send_refracted(direction, &s, m, material, &from, &r, &reflected_part);
+        if (send_mirrored(direction, &s, reflected_part, &from, has ? &aside : &r)) {
+            if (has)
+                push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
+            has = 1;
+        }
+#else
+        has = send_mirrored(direction, &s, reflected_part, &from, &r);
+#endif
+    }
+#endif
+#if RT_REFRACT
+    if (!has)
+        has = pop_waiting(waiting, waiting_marks, marks, step, slot, &r);
+#endif
+    if (has) {
+        store_next(next_rays, next_home, step, i, slot, paths, marks, &r);
+    } else {
+        next_rays[RT_RAY_TMIN * step + i] = 0.0f;
+        next_rays[RT_RAY_TMAX * step + i] = -1.0f;
+    }
+#elif RT_SUM
+    const vec3 sum = LOAD3(colors, step, i);
+    color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
+    STORE3(color, colors, step, i);
+#else
+    STORE3(color, colors, step, i);
+#endif
 }

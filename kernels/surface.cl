@@ -107,6 +107,71 @@ INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *nor
 }
 #endif
 
+/* What the trace stage leaves behind, and the primitives that it speaks of: parameters of the
+ * kernels that look at hits, and those in one. */
+#if RT_SMOOTH
+#define SMOOTH_PARAMETERS , __global const int *normals_of, __global const float *normals
+#define SMOOTH_FIELDS , normals_of, normals
+#else
+#define SMOOTH_PARAMETERS
+#define SMOOTH_FIELDS
+#endif
+#define TRACED_PARAMETERS                                                                          \
+    const int stride, __global const number *rays, __global const int *hit_index,                  \
+        __global const int *hit_slot, __global const number *hit_array,                            \
+        __global const rt_sphere_block *spheres, const int sphere_count,                           \
+        __global const rt_triangle_block *triangles SMOOTH_PARAMETERS
+#define TRACED                                                                                     \
+    {                                                                                              \
+        (size_t) stride, rays, hit_index, hit_slot, hit_array, spheres, sphere_count,              \
+            triangles SMOOTH_FIELDS                                                                \
+    }
+typedef struct traced {
+    size_t step;
+    __global const number *rays;
+    __global const int *hit_index, *hit_slot;
+    __global const number *hit_array;
+    __global const rt_sphere_block *spheres;
+    int sphere_count;
+    __global const rt_triangle_block *triangles;
+#if RT_SMOOTH
+    __global const int *normals_of;
+    __global const float *normals;
+#endif
+} traced;
+
+#if RT_SPHERES || RT_TRIANGLES
+/* The surface that ray i, which goes along `direction`, has met as hit `index`. */
+INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, surface *s)
+{
+    const size_t step = w->step;
+    const int slot = w->hit_slot[i];
+    const int place = slot % RT_BLOCK_PRIMITIVES;
+    const vec3 origin = LOAD3(w->rays, step, i);
+    const number t = w->hit_array[RT_HIT_T * step + i];
+    s->point = ADD_SCALED(direction, t, origin);
+#if RT_SPHERES
+    if (index < w->sphere_count)
+        sphere_surface(w->spheres + slot / RT_BLOCK_PRIMITIVES, place, direction, s);
+#endif
+#if RT_SPHERES && RT_TRIANGLES
+    else
+#endif
+#if RT_TRIANGLES
+    {
+        const number u = w->hit_array[RT_HIT_U * step + i];
+        const number v = w->hit_array[RT_HIT_V * step + i];
+        triangle_surface(w->triangles + slot / RT_BLOCK_PRIMITIVES, place, u, v, direction, s);
+#if RT_SMOOTH
+        const int record = w->normals_of[index - w->sphere_count];
+        if (record >= 0)
+            smooth_normal(w->normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s->normal);
+#endif
+    }
+#endif
+}
+#endif
+
 /* Where a ray in `direction` starts: above the surface on the side that it leaves on. */
 INLINE void leave(const surface *s, vec3 direction, vec3 *origin)
 {

@@ -17,3 +17,18 @@ INLINE pixel tile_pixel(rt_tile tile)
     p.inside = (p.column < tile.width) & (p.row < tile.height);
     return p;
 }
+
+#if RT_NEXT || RT_RANDOM
+/* The same of any place in the tile's arrays. */
+INLINE pixel slot_pixel(rt_tile tile, int slot)
+{
+    const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;
+    const int block = slot / RT_BLOCK_RAYS;
+    const int local_id = slot % RT_BLOCK_RAYS;
+    pixel p;
+    p.column = block % blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(local_id);
+    p.row = block / blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_ROW(local_id);
+    p.inside = (p.column < tile.width) & (p.row < tile.height);
+    return p;
+}
+#endif

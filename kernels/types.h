@@ -116,12 +116,16 @@ typedef struct rt_light {
 } rt_light;
 
 /* The direction of pixel (x, y) before it is made unit:
- * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward. */
+ * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward. The lens is the disk that lens_right
+ * and lens_up span about the origin; what is at `focus` along the view is sharp. */
 typedef struct rt_frame {
     float ox, oy, oz;
     float right_x, right_y, right_z;
     float up_x, up_y, up_z;
     float forward_x, forward_y, forward_z;
+    float lens_right_x, lens_right_y, lens_right_z;
+    float lens_up_x, lens_up_y, lens_up_z;
+    float focus;
     int width, height;
 } rt_frame;
 
@@ -135,5 +139,93 @@ typedef struct rt_surround {
     float background_r, background_g, background_b;
     float ambient_r, ambient_g, ambient_b;
 } rt_surround;
+
+/* The background's colour straight along the unit vector `up`; rt_surround's is the opposite. */
+typedef struct rt_gradient {
+    float top_r, top_g, top_b;
+    float up_x, up_y, up_z;
+} rt_gradient;
+
+/* A part exp(-density * t) of the light gets through t of fog, which adds its colour for the rest.
+ */
+typedef struct rt_fog {
+    float r, g, b;
+    float density;
+} rt_fog;
+
+/* Ambient light that is hindered by what is nearer than `distance`, by `samples` rays. */
+typedef struct rt_crevice {
+    float distance;
+    int samples;
+} rt_crevice;
+
+/* Which of the launches of a stage over one tile this is. */
+typedef struct rt_turn {
+    int sample;       /* of each pixel */
+    int rays;         /* in the ray array, a multiple of RT_BLOCK_RAYS */
+    int light;        /* whose shadow; the number of lights where ambient light is meant */
+    int first, count; /* of the light's samples, those that the probes are for */
+} rt_turn;
+
+/* Random numbers are numbered: what they are for is their dimension. At a light `k`, or for ambient
+ * light, the rays before and the pixel's sample count too. */
+#define RT_DIMENSION_PIXEL 0u
+#define RT_DIMENSION_LENS 1u
+#define RT_DIMENSION_AMBIENT 8u
+#define RT_DIMENSION_LIGHT 16u
+#define RT_DIMENSION(base, bounce, sample)                                                         \
+    ((base) + 1024u * ((unsigned)(bounce) + 64u * (unsigned)(sample)))
+
+/* What a ray on its way brings to a pixel: components of an array of numbers, of one of integers.
+ * `weight` is what mirrors and surfaces let through, `tint` what fog and absorption do. The bounce
+ * counts the rays before; the medium is the material that the ray is in, RT_OUTSIDE for none. */
+#define RT_PATH_WEIGHT 0
+#define RT_PATH_TINT_R 1
+#define RT_PATH_TINT_G 2
+#define RT_PATH_TINT_B 3
+#define RT_PATH_COMPONENTS 4
+#define RT_MARK_BOUNCE 0
+#define RT_MARK_MEDIUM 1
+#define RT_MARK_IS_REFRACTED 2
+#define RT_MARK_WAITING 3 /* mirror rays that wait */
+#define RT_MARK_COMPONENTS 4
+#define RT_OUTSIDE (-1)
+
+/* A mirror ray that waits until the refracted ray of the same hit, and all that comes of it, is
+ * through. */
+#define RT_WAITING_OX 0
+#define RT_WAITING_DX 3
+#define RT_WAITING_WEIGHT 6
+#define RT_WAITING_TINT_R 7
+#define RT_WAITING_COMPONENTS 10
+#define RT_WAITING_BOUNCE 0
+#define RT_WAITING_MEDIUM 1
+#define RT_WAITING_MARKS 2
+
+/* Rays that would bring less than this part are not followed: less than half of an 8-bit step of
+ * white. Both rays of a hit can be worth it at 511 hits of a path at most. */
+#define RT_WEIGHT_LEAST (1.0f / 512.0f)
+#define RT_WAITING_MOST 511
+
+/* What rt_count tells of each block of next rays. */
+#define RT_COUNT_ALL 0
+#define RT_COUNT_REFRACTED 1
+#define RT_COUNT_COMPONENTS 2
+
+/* Bits of `flags` where effects are switched at run time. */
+#define RT_FLAG_ANTIALIAS 0x1
+#define RT_FLAG_LENS 0x2
+#define RT_FLAG_SHADOWS 0x4
+#define RT_FLAG_REFLECT 0x8
+#define RT_FLAG_REFRACT 0x10
+#define RT_FLAG_ABSORB 0x20
+#define RT_FLAG_AMBIENT_OCCLUSION 0x40
+#define RT_FLAG_FOG 0x80
+#define RT_FLAG_GRADIENT 0x100
+#define RT_FLAG_CHECKER 0x200
+#define RT_FLAG_TEXTURE 0x400
+#define RT_FLAG_TENT 0x800
+#define RT_FLAG_NEXT (RT_FLAG_REFLECT | RT_FLAG_REFRACT)
+#define RT_FLAG_SUM (RT_FLAG_ANTIALIAS | RT_FLAG_NEXT)
 
 #endif

@@ -22,11 +22,21 @@ typedef struct vec3 {
 #endif
 
 #define SCALE(v, s) ((vec3){(v).x * (s), (v).y * (s), (v).z * (s)})
+#define MULTIPLY(a, b) ((vec3){(a).x * (b).x, (a).y * (b).y, (a).z * (b).z})
+/* a * s + b; s is a number, not a float. */
+#define ADD_SCALED(a, s, b)                                                                        \
+    ((vec3){fma((a).x, (s), (b).x), fma((a).y, (s), (b).y), fma((a).z, (s), (b).z)})
 /* The factor that makes a vector unit whose components are of moderate size; infinite for the zero
  * vector, which then becomes NaN. */
 #define RECIPROCAL_LENGTH(v) DIVIDE_1(1.0f, ROOT_1(DOT(v, v)))
 #define LOAD3(array, stride, i)                                                                    \
     ((vec3){(array)[i], (array)[(stride) + (i)], (array)[2 * (size_t)(stride) + (i)]})
+#define STORE3(v, array, stride, i)                                                                \
+    do {                                                                                           \
+        (array)[i] = (v).x;                                                                        \
+        (array)[(stride) + (i)] = (v).y;                                                           \
+        (array)[2 * (size_t)(stride) + (i)] = (v).z;                                               \
+    } while (0)
 
 /* The power of two that brings the largest component of `v` to [1, 2), so that squares and products
  * of components neither overflow nor vanish; multiplying by it is exact. For vectors whose largest

@@ -66,28 +66,48 @@ static bool upload_geometry(const uploader *u, const rt_scene *scene, const rt_b
     return good;
 }
 
+static bool upload_normals(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
+    return upload(u, scene->triangle_normals,
+                  scene->triangle_count * sizeof *scene->triangle_normals, &u->target->normals_of,
+                  status) &&
+           upload(u, scene->normals, normals * sizeof *scene->normals, &u->target->normals, status);
+}
+
+static bool upload_textures(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    rt_device_scene *b = u->target;
+    const size_t uvs = scene->uv_count * RT_UV_COMPONENTS;
+    return upload(u, scene->triangle_uvs, scene->triangle_count * sizeof *scene->triangle_uvs,
+                  &b->uvs_of, status) &&
+           upload(u, scene->uvs, uvs * sizeof *scene->uvs, &b->uvs, status) &&
+           upload(u, scene->textures, scene->texture_count * sizeof *scene->textures, &b->textures,
+                  status) &&
+           upload(u, scene->texels, scene->texel_count * sizeof *scene->texels, &b->texels, status);
+}
+
 bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_command_queue queue,
-                            const rt_scene *scene, const rt_bvh *bvh, rt_status *status)
+                            const rt_scene *scene, const rt_bvh *bvh, const rt_effects *effects,
+                            rt_status *status)
 {
     const uploader up = {context, queue, target}, *u = &up;
     rt_device_scene *b = target;
-    /* Without vertex normals the kernels do not read the records' indices. */
-    const size_t records = scene->normal_count ? scene->triangle_count : 0;
-    const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
+    b->sphere_count = (cl_int)scene->sphere_count;
     return upload_geometry(u, scene, bvh, status) && upload_material_indices(u, scene, status) &&
-           upload(u, scene->triangle_normals, records * sizeof *scene->triangle_normals,
-                  &b->normals_of, status) &&
-           upload(u, scene->normals, normals * sizeof *scene->normals, &b->normals, status) &&
            upload(u, scene->materials, scene->material_count * sizeof *scene->materials,
                   &b->materials, status) &&
-           upload(u, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights, status);
+           upload(u, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights,
+                  status) &&
+           (!effects->on[RT_EFFECT_SMOOTH_NORMALS] || upload_normals(u, scene, status)) &&
+           (!effects->on[RT_EFFECT_TEXTURE] || upload_textures(u, scene, status));
 }
 
 void rt_device_scene_release(rt_device_scene *s)
 {
-    const cl_mem buffers[] = {s->nodes,     s->order,        s->spheres,
-                              s->triangles, s->materials_of, s->normals_of,
-                              s->normals,   s->materials,    s->lights};
+    const cl_mem buffers[] = {s->nodes,     s->order,        s->spheres,    s->triangles, s->lights,
+                              s->materials, s->materials_of, s->normals_of, s->normals,   s->uvs_of,
+                              s->uvs,       s->textures,     s->texels};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])
             clReleaseMemObject(buffers[i]);

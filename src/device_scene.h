@@ -7,20 +7,23 @@
 
 #include "bvh.h"
 #include "cl.h"
+#include "effects.h"
 #include "scene.h"
 #include "status.h"
 
 typedef struct rt_device_scene {
     cl_mem nodes, order, spheres, triangles; /* the tree and its blocks; kernels/types.h */
-    cl_mem materials_of, normals_of;         /* by primitive, and by triangle */
-    cl_mem normals, materials, lights;
-    cl_int sphere_blocks, triangle_blocks;
+    cl_mem materials_of, materials, lights;  /* the first by primitive */
+    cl_mem normals_of, normals;              /* where normals are smooth; by triangle */
+    cl_mem uvs_of, uvs, textures, texels;    /* where there are textures; the first by triangle */
+    cl_int sphere_count, sphere_blocks, triangle_blocks;
 } rt_device_scene;
 
-/* Uploads everything; without a tree the blocks are in the scene's own order. On failure, too, the
- * caller releases what there is. */
+/* Uploads all that the effects have use for; without a tree the blocks are in the scene's own
+ * order. On failure, too, the caller releases what there is. */
 bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_command_queue queue,
-                            const rt_scene *scene, const rt_bvh *bvh, rt_status *status);
+                            const rt_scene *scene, const rt_bvh *bvh, const rt_effects *effects,
+                            rt_status *status);
 void rt_device_scene_release(rt_device_scene *target);
 
 /* A buffer that holds at least one byte, since OpenCL has no empty ones. */

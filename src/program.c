@@ -25,6 +25,32 @@ static int round_stack(size_t need)
     return size;
 }
 
+/* Of the effects, the options of those that are on: the others' default is not to be there. */
+static void effect_options(const rt_effects *effects, char *options, size_t size)
+{
+    static const struct {
+        enum rt_effect effect;
+        const char *option;
+    } names[] = {{RT_EFFECT_CHECKER, "CHECKER"},
+                 {RT_EFFECT_TEXTURE, "TEXTURE"},
+                 {RT_EFFECT_REFLECTION, "REFLECT"},
+                 {RT_EFFECT_REFRACTION, "REFRACT"},
+                 {RT_EFFECT_ABSORPTION, "ABSORB"},
+                 {RT_EFFECT_OCCLUSION, "AMBIENT_OCCLUSION"},
+                 {RT_EFFECT_FOG, "FOG"},
+                 {RT_EFFECT_GRADIENT, "GRADIENT"},
+                 {RT_EFFECT_ANTIALIASING, "ANTIALIAS"},
+                 {RT_EFFECT_DEPTH_OF_FIELD, "LENS"}};
+    size_t length = strlen(options);
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
+        if (effects->on[names[i].effect])
+            length +=
+                (size_t)snprintf(options + length, size - length, " -DRT_%s=1", names[i].option);
+    const bool soft = effects->on[RT_EFFECT_SOFT_SHADOWS];
+    if (soft || effects->on[RT_EFFECT_HARD_SHADOWS])
+        snprintf(options + length, size - length, " -DRT_SHADOWS=%d", soft ? 2 : 1);
+}
+
 void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
                         char *options)
 {
@@ -41,6 +67,7 @@ void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_
              round_stack(walk->stack_size), walk->with_occlusion, effects->has_spheres,
              effects->has_triangles, effects->cull_sign, effects->on[RT_EFFECT_SMOOTH_NORMALS],
              effects->exponent_bits, effects->has_fractional_exponent, (int)rounding);
+    effect_options(effects, options, RT_PROGRAM_OPTIONS_SIZE);
 }
 
 /* The files of RT_KERNELS, each behind a #line like the embedded ones; NULL after an error. */

@@ -10,7 +10,7 @@
 #include "effects.h"
 #include "status.h"
 
-#define RT_PROGRAM_OPTIONS_SIZE 512
+#define RT_PROGRAM_OPTIONS_SIZE 1024
 
 /* How the kernels come by correctly rounded division and square root (kernels/options.h). */
 enum rt_rounding { RT_ROUNDING_DEVICE = 0, RT_ROUNDING_DOUBLE = 1, RT_ROUNDING_FMA = 2 };

@@ -31,8 +31,18 @@ enum rt_stage {
     RT_STAGE_TRACE,
     RT_STAGE_SHADE,
     RT_STAGE_RESOLVE,
-    RT_STAGE_OCCLUDE, /* any hit; only by rt_renderer_occluded */
-    RT_STAGE_HITS,    /* hit records into rows; only where they are asked for */
+    RT_STAGE_OCCLUDE,     /* any hit; only by rt_renderer_occluded */
+    RT_STAGE_HITS,        /* hit records into rows; only where they are asked for */
+    RT_STAGE_SHADOW_RAYS, /* these three a light and a share of its samples */
+    RT_STAGE_SHADOW,
+    RT_STAGE_SHADOW_TALLY,
+    RT_STAGE_AMBIENT_RAYS, /* and these for ambient occlusion */
+    RT_STAGE_AMBIENT,
+    RT_STAGE_AMBIENT_TALLY,
+    RT_STAGE_COUNT_NEXT, /* of rays that go on: how many, ... */
+    RT_STAGE_PACK,       /* those alone ... */
+    RT_STAGE_NEXT_TRACE, /* ... and trace and shade again */
+    RT_STAGE_NEXT_SHADE,
     RT_STAGE_COUNT
 };
 
@@ -43,6 +53,7 @@ typedef struct rt_render_times {
     double stages[RT_STAGE_COUNT];
     size_t launches[RT_STAGE_COUNT];
     size_t tiles, primary_rays;
+    size_t shadow_rays, occlusion_rays, reflection_rays, refraction_rays;
 } rt_render_times;
 
 typedef struct rt_renderer rt_renderer;
@@ -55,7 +66,8 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
 void rt_renderer_free(rt_renderer *renderer);
 
 /* Renders the picture, whose size must be the scene's; hit records are filled in where the picture
- * has room for them. Stops with code RT_INTERRUPTED between tiles when the watch says so. */
+ * has room for them, of the first sample of each pixel. Stops with code RT_INTERRUPTED between
+ * tiles, and between samples and passes of a tile, when the watch says so. */
 bool rt_renderer_draw(rt_renderer *renderer, rt_image *image, const rt_watch *watch,
                       rt_status *status);
 

@@ -4,8 +4,8 @@
 #include "render_state.h"
 
 /* Component `c` of `count` rays; the rest of the last block ends before it begins. */
-static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, size_t padded,
-                            size_t c, rt_status *status)
+static bool stage_component(rt_renderer *r, cl_mem target, const rt_ray *rays, size_t count,
+                            size_t padded, size_t c, rt_status *status)
 {
     for (size_t i = 0; i < padded; ++i) {
         const rt_ray *ray = &rays[i < count ? i : count - 1];
@@ -15,7 +15,7 @@ static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, si
                         : i < count        ? ray->tmax
                                            : -1.0f;
     }
-    return RT_CL(clEnqueueWriteBuffer(r->queue, r->tile.rays, CL_TRUE,
+    return RT_CL(clEnqueueWriteBuffer(r->queue, target, CL_TRUE,
                                       c * (size_t)r->stride * sizeof *r->staging,
                                       padded * sizeof *r->staging, r->staging, 0, NULL, NULL),
                  status);
@@ -25,14 +25,13 @@ static bool stage_component(rt_renderer *r, const rt_ray *rays, size_t count, si
 static bool trace_stage(rt_renderer *r, enum rt_stage stage, const rt_ray *rays, size_t count,
                         rt_status *status)
 {
+    const cl_mem target = r->tile[stage == RT_STAGE_TRACE ? BUFFER_RAYS : BUFFER_PROBES];
     const size_t padded = (count + RT_BLOCK_RAYS - 1) / RT_BLOCK_RAYS * RT_BLOCK_RAYS;
     for (size_t c = 0; c < RT_RAY_COMPONENTS; ++c)
-        if (!stage_component(r, rays, count, padded, c, status))
+        if (!stage_component(r, target, rays, count, padded, c, status))
             return false;
     flight *f = &r->flights[0];
-    f->busy = true;
-    return rt_renderer_launch(r, stage, padded, &f->events[stage], status) &&
-           rt_renderer_finish(r, f, status);
+    return rt_renderer_launch(r, stage, padded, f, status) && rt_renderer_finish(r, f, status);
 }
 
 /* Reads `count` values of a buffer, from value `first` on, to r->staging. */
@@ -57,12 +56,12 @@ static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
                        rt_status *status)
 {
     if (!trace_stage(r, RT_STAGE_TRACE, rays, count, status) ||
-        !read_values(r, r->tile.hit_index, 0, count, status))
+        !read_values(r, r->tile[BUFFER_HIT_INDEX], 0, count, status))
         return false;
     for (size_t i = 0; i < count; ++i)
         hits[i].primitive = staged_index(r, i);
     for (size_t c = 0; c < RT_HIT_COMPONENTS; ++c) {
-        if (!read_values(r, r->tile.hit_array, c * (size_t)r->stride, count, status))
+        if (!read_values(r, r->tile[BUFFER_HIT_ARRAY], c * (size_t)r->stride, count, status))
             return false;
         for (size_t i = 0; i < count; ++i)
             *(c == RT_HIT_T ? &hits[i].t : c == RT_HIT_U ? &hits[i].u : &hits[i].v) = r->staging[i];
@@ -89,7 +88,7 @@ bool rt_renderer_occluded(rt_renderer *r, const rt_ray *rays, size_t count, uint
     for (size_t done = 0; done < count; done += most) {
         const size_t part = count - done < most ? count - done : most;
         if (!trace_stage(r, RT_STAGE_OCCLUDE, rays + done, part, status) ||
-            !read_values(r, r->tile.hit_index, 0, part, status))
+            !read_values(r, r->tile[BUFFER_BLOCKED], 0, part, status))
             return false;
         for (size_t i = 0; i < part; ++i)
             occluded[done + i] = staged_index(r, i) != RT_MISS;

@@ -24,19 +24,12 @@ typedef struct picture {
     bool is_stopped;
 } picture;
 
-static void set_lens(eye *e, const rt_scene *scene, const rt_view *view)
+static void set_lens(eye *e, const rt_view *view)
 {
-    const double *r = view->right, *u = view->up;
-    const double radius = 0.5 * (double)scene->camera.aperture;
-    const double across = radius / hypot(hypot(r[0], r[1]), r[2]);
-    const double along = radius / hypot(hypot(u[0], u[1]), u[2]);
-    e->lens_right = (vec){(real)(r[0] * across), (real)(r[1] * across), (real)(r[2] * across)};
-    e->lens_up = (vec){(real)(u[0] * along), (real)(u[1] * along), (real)(u[2] * along)};
-    const rt_vec3 from = scene->camera.from, at = scene->camera.at;
-    const double distance =
-        hypot(hypot((double)at.x - (double)from.x, (double)at.y - (double)from.y),
-              (double)at.z - (double)from.z);
-    e->focus = scene->camera.focus > 0.0f ? (real)scene->camera.focus : (real)distance;
+    const double *r = view->lens_right, *u = view->lens_up;
+    e->lens_right = (vec){(real)r[0], (real)r[1], (real)r[2]};
+    e->lens_up = (vec){(real)u[0], (real)u[1], (real)u[2]};
+    e->focus = (real)view->focus;
 }
 
 static eye eye_of(const rt_scene *scene)
@@ -54,7 +47,7 @@ static eye eye_of(const rt_scene *scene)
              .up = {f.up_x, f.up_y, f.up_z},
              .forward = {f.forward_x, f.forward_y, f.forward_z}};
 #endif
-    set_lens(&e, scene, &v);
+    set_lens(&e, &v);
     return e;
 }
 

@@ -203,6 +203,7 @@ rt_view rt_scene_view(const rt_scene *scene)
     rt_view view = {
         .origin = {(double)camera->from.x, (double)camera->from.y, (double)camera->from.z}};
     difference(view.forward, camera->at, camera->from);
+    view.focus = camera->focus > 0.0f ? (double)camera->focus : length(view.forward);
     scale(view.forward, 1.0 / length(view.forward));
 
     double up[3];
@@ -222,12 +223,31 @@ rt_view rt_scene_view(const rt_scene *scene)
     scale(view.right, 1.0 / length(view.right));
     cross(view.up, view.right, view.forward);
 
+    const double radius = 0.5 * (double)camera->aperture;
+    for (int i = 0; i < 3; ++i) {
+        view.lens_right[i] = radius * view.right[i];
+        view.lens_up[i] = radius * view.up[i];
+    }
+
     /* Half a pixel: the image plane at distance 1 is 2 tan(vfov / 2) high, pixels are square. */
     const double pi = 3.14159265358979323846;
     const double half_pixel = tan((double)camera->vfov * pi / 360.0) / scene->height;
     scale(view.right, half_pixel);
     scale(view.up, half_pixel);
     return view;
+}
+
+rt_gradient rt_scene_gradient(const rt_scene *scene)
+{
+    double up[3];
+    difference(up, scene->camera.up, (rt_vec3){0.0f, 0.0f, 0.0f});
+    scale(up, 1.0 / length(up));
+    return (rt_gradient){scene->background_top.x,
+                         scene->background_top.y,
+                         scene->background_top.z,
+                         (float)up[0],
+                         (float)up[1],
+                         (float)up[2]};
 }
 
 rt_frame rt_scene_frame(const rt_scene *scene)
@@ -245,6 +265,13 @@ rt_frame rt_scene_frame(const rt_scene *scene)
                       .forward_x = (float)view.forward[0],
                       .forward_y = (float)view.forward[1],
                       .forward_z = (float)view.forward[2],
+                      .lens_right_x = (float)view.lens_right[0],
+                      .lens_right_y = (float)view.lens_right[1],
+                      .lens_right_z = (float)view.lens_right[2],
+                      .lens_up_x = (float)view.lens_up[0],
+                      .lens_up_y = (float)view.lens_up[1],
+                      .lens_up_z = (float)view.lens_up[2],
+                      .focus = (float)view.focus,
                       .width = scene->width,
                       .height = scene->height};
 }

@@ -49,11 +49,17 @@ static json_t *effects_of(const rt_stats *s)
     return effects;
 }
 
-/* Whether the rays of later stages are traced or not, their counts are there: 0 is a fact too. */
+/* By kind, those of the scalar path not counted beyond the primary ones. */
 static json_t *rays_of(const rt_stats *s)
 {
-    return json_pack("{s:o,s:i,s:i,s:i,s:o}", "primary", count_of(s->primary_rays), "shadow", 0,
-                     "reflection", 0, "refraction", 0, "total", count_of(s->primary_rays));
+    static const rt_render_times none;
+    const rt_render_times *t = s->times ? s->times : &none;
+    const size_t total = s->primary_rays + t->shadow_rays + t->occlusion_rays + t->reflection_rays +
+                         t->refraction_rays;
+    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(s->primary_rays), "shadow",
+                     count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
+                     "reflection", count_of(t->reflection_rays), "refraction",
+                     count_of(t->refraction_rays), "total", count_of(total));
 }
 
 bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)

@@ -242,6 +242,10 @@ rt_render_times rt_team_times(const rt_team *team)
         }
         sum.tiles += times->tiles;
         sum.primary_rays += times->primary_rays;
+        sum.shadow_rays += times->shadow_rays;
+        sum.occlusion_rays += times->occlusion_rays;
+        sum.reflection_rays += times->reflection_rays;
+        sum.refraction_rays += times->refraction_rays;
     }
     return sum;
 }

@@ -135,7 +135,7 @@ static void a_difference_is_5(void **state)
     (void)state;
     assert_int_equal(run("$RT --verify scenes/icecream.txt --size 100x80 >$T/report"), 0);
     assert_int_equal(run("grep -q 'hit records that differ:  *0 of 8000' $T/report"), 0);
-    test_mutate_kernels("shade.cl", "m.kd_r * diffuse", "m.kd_r * diffuse * 0.9f");
+    test_mutate_kernels("shade.cl", "kd.x * diffuse", "kd.x * diffuse * 0.9f");
     assert_int_equal(
         run("$RT --verify scenes/icecream.txt $T/differs.png --size 100x80 >$T/report"), 5);
     test_restore_kernels();

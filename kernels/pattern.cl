@@ -1,0 +1,87 @@
+/* What ka and kd are multiplied by where a material has a checker or a picture. */
+
+#if RT_CHECKER
+/* Whether a point is in one of every two cells; cells of side `cell` lie about the whole multiples
+ * of it, so that a floor at one is within cells and not on their border. */
+INLINE int in_odd_cell(vec3 point, number cell)
+{
+    const number half_ = 0.5f;
+    const number sum = floor(DIVIDE_1(point.x, cell) + half_) +
+                       floor(DIVIDE_1(point.y, cell) + half_) +
+                       floor(DIVIDE_1(point.z, cell) + half_);
+    /* The parity of a whole number of any size. */
+    return sum - (number)2.0f * floor(sum * half_) > half_;
+}
+#endif
+
+#if RT_TEXTURE
+/* Pictures and what says where on them a point is. */
+typedef struct pictures {
+    __global const int *uvs_of; /* record of each triangle in `uvs`, -1 for none */
+    __global const float *uvs;
+    __global const rt_texture *textures;
+    __global const uint *texels;
+} pictures;
+
+/* The texel in column x and row y, counted from the lower left; the picture repeats. */
+INLINE void texel_at(const pictures *p, const rt_texture t, int x, int y, vec3 *color)
+{
+    const int column = (x % t.width + t.width) % t.width;
+    const int row = t.height - 1 - (y % t.height + t.height) % t.height;
+    const uint texel = p->texels[(size_t)t.first + (size_t)row * (size_t)t.width + (size_t)column];
+    const number step = 1.0f / 255.0f;
+    color->x = (number)(int)(texel & 255) * step;
+    color->y = (number)(int)(texel >> 8 & 255) * step;
+    color->z = (number)(int)(texel >> 16 & 255) * step;
+}
+
+/* Where on a picture a hit is: spheres by longitude and latitude about the y axis. */
+INLINE void picture_point(const pictures *p, const traced *w, size_t i, int index, const surface *s,
+                          number *x, number *y)
+{
+    *x = *y = 0.0f;
+#if RT_SPHERES
+    if (index < w->sphere_count) {
+        const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
+        const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);
+        *x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
+        *y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
+        return;
+    }
+#endif
+#if RT_TRIANGLES
+    const int record = p->uvs_of[index - w->sphere_count];
+    if (record < 0)
+        return;
+    __global const float *uv = p->uvs + (size_t)record * RT_UV_COMPONENTS;
+    const number u = w->hit_array[RT_HIT_U * w->step + i];
+    const number v = w->hit_array[RT_HIT_V * w->step + i];
+    const number rest = (number)1.0f - u - v;
+    *x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
+    *y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
+#endif
+}
+
+/* A picture's colour at (x, y), once round the picture from 0 to 1. */
+INLINE void picture_color(const pictures *p, const rt_texture t, int nearest, number x, number y,
+                          vec3 *color)
+{
+    const number across = (x - floor(x)) * (number)t.width;
+    const number up = (y - floor(y)) * (number)t.height;
+    if (nearest) {
+        texel_at(p, t, (int)floor(across), (int)floor(up), color);
+        return;
+    }
+    const number left = floor(across - (number)0.5f), low = floor(up - (number)0.5f);
+    const number f = across - (number)0.5f - left, g = up - (number)0.5f - low;
+    vec3 c00, c10, c01, c11;
+    texel_at(p, t, (int)left, (int)low, &c00);
+    texel_at(p, t, (int)left + 1, (int)low, &c10);
+    texel_at(p, t, (int)left, (int)low + 1, &c01);
+    texel_at(p, t, (int)left + 1, (int)low + 1, &c11);
+    const vec3 d0 = SUB(vec3, c10, c00), d1 = SUB(vec3, c11, c01);
+    const vec3 below = ADD_SCALED(d0, f, c00), above = ADD_SCALED(d1, f, c01);
+    const vec3 d = SUB(vec3, above, below);
+    *color = ADD_SCALED(d, g, below);
+}
+#endif
