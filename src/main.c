@@ -22,6 +22,8 @@
 #include "scene_text.h"
 #include "stats.h"
 #include "status.h"
+#include "study.h"
+#include "study_report.h"
 #include "team.h"
 
 /* Lock-free, so that a handler may set it, and threads may read it. */
@@ -49,6 +51,8 @@ typedef struct run {
     rt_progress progress;
     rt_image image;
     rt_output picture, hits, stats_file;
+    rt_study study;
+    rt_study_files report;
     rt_stats stats;
     double start;
 } run;
@@ -105,7 +109,8 @@ static bool open_outputs(run *r)
     const rt_options *o = &r->options;
     return (!o->output || rt_output_open(&r->picture, o->output, &r->status)) &&
            (!o->hits || rt_output_open(&r->hits, o->hits, &r->status)) &&
-           (!o->stats || rt_output_open(&r->stats_file, o->stats, &r->status));
+           (!o->stats || rt_output_open(&r->stats_file, o->stats, &r->status)) &&
+           (!o->study || rt_study_files_open(&r->report, o->study, &r->status));
 }
 
 static bool choose_devices(run *r)
@@ -266,13 +271,29 @@ static void catch_signals(void)
     sigaction(SIGPIPE, &action, NULL);
 }
 
+/* Renders the scene at every level and writes what that costs. */
+static bool study(run *r)
+{
+    const rt_options *o = &r->options;
+    if (!read_scene(r) || !open_outputs(r) || !choose_devices(r))
+        return false;
+    const rt_study_how how = {.device = r->chosen[0],
+                              .has_tree = o->accel == RT_ACCEL_BVH,
+                              .lanes = o->lanes,
+                              .tile = o->tile};
+    begin_progress(r);
+    const bool good =
+        rt_study_run(&r->study, &r->scene, o->scene, &o->plan, &how, &r->watch, &r->status);
+    rt_progress_clear(&r->progress);
+    if (!good || !rt_study_files_write(&r->report, &r->study, &r->watch, &r->status))
+        return false;
+    if (o->quiet)
+        rt_status_clear(&r->status);
+    return true;
+}
+
 static bool render(run *r)
 {
-    catch_signals();
-    r->watch = (rt_watch){keep_going, r};
-    rt_scene_init(&r->scene);
-    if (r->options.target == RT_TARGET_DEVICE)
-        rt_device_list_begin(&r->opening);
     /* A picture that differs is still written: it is what there is to look at. */
     const bool drawn = read_scene(r) && open_outputs(r) && choose_devices(r) && draw(r);
     if (!drawn)
@@ -310,7 +331,12 @@ static bool act(run *r)
     case RT_ACTION_RENDER:
         break;
     }
-    return render(r);
+    catch_signals();
+    r->watch = (rt_watch){keep_going, r};
+    rt_scene_init(&r->scene);
+    if (r->options.target == RT_TARGET_DEVICE)
+        rt_device_list_begin(&r->opening);
+    return r->options.study ? study(r) : render(r);
 }
 
 static void release(run *r)
@@ -320,6 +346,8 @@ static void release(run *r)
     rt_output_discard(&r->picture);
     rt_output_discard(&r->hits);
     rt_output_discard(&r->stats_file);
+    rt_study_files_discard(&r->report);
+    rt_study_clear(&r->study);
     rt_image_clear(&r->image);
     free(r->chosen);
     if (r->opening.has_begun)
@@ -334,6 +362,7 @@ int main(int argc, char **argv)
     run r = {.picture = RT_OUTPUT_INIT,
              .hits = RT_OUTPUT_INIT,
              .stats_file = RT_OUTPUT_INIT,
+             .report = RT_STUDY_FILES_INIT,
              .start = rt_clock_seconds()};
     bool good = rt_options_read(&r.options, argc, argv, &r.status) && act(&r);
     /* Text on standard output may still be in a buffer that a full disk refuses. */

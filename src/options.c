@@ -24,63 +24,83 @@ enum {
     OPTION_STATS,
     OPTION_GRAMMAR,
     OPTION_PROGRESS,
+    OPTION_STUDY,
+    OPTION_STUDY_LEVELS,
+    OPTION_STUDY_REPEATS,
+    OPTION_STUDY_SAMPLES,
     OPTION_VERSION
 };
 
-static const struct option long_options[] = {{"accel", required_argument, NULL, OPTION_ACCEL},
-                                             {"accuracy", required_argument, NULL, OPTION_ACCURACY},
-                                             {"device", required_argument, NULL, OPTION_DEVICE},
-                                             {"grammar", no_argument, NULL, OPTION_GRAMMAR},
-                                             {"help", no_argument, NULL, OPTION_HELP},
-                                             {"hits", required_argument, NULL, OPTION_HITS},
-                                             {"lanes", required_argument, NULL, OPTION_LANES},
-                                             {"list-devices", no_argument, NULL, OPTION_LIST},
-                                             {"progress", required_argument, NULL, OPTION_PROGRESS},
-                                             {"quiet", no_argument, NULL, OPTION_QUIET},
-                                             {"size", required_argument, NULL, OPTION_SIZE},
-                                             {"stats", required_argument, NULL, OPTION_STATS},
-                                             {"tile", required_argument, NULL, OPTION_TILE},
-                                             {"verify", no_argument, NULL, OPTION_VERIFY},
-                                             {"version", no_argument, NULL, OPTION_VERSION},
-                                             {NULL, 0, NULL, 0}};
+static const struct option long_options[] = {
+    {"accel", required_argument, NULL, OPTION_ACCEL},
+    {"accuracy", required_argument, NULL, OPTION_ACCURACY},
+    {"device", required_argument, NULL, OPTION_DEVICE},
+    {"grammar", no_argument, NULL, OPTION_GRAMMAR},
+    {"help", no_argument, NULL, OPTION_HELP},
+    {"hits", required_argument, NULL, OPTION_HITS},
+    {"lanes", required_argument, NULL, OPTION_LANES},
+    {"list-devices", no_argument, NULL, OPTION_LIST},
+    {"progress", required_argument, NULL, OPTION_PROGRESS},
+    {"quiet", no_argument, NULL, OPTION_QUIET},
+    {"size", required_argument, NULL, OPTION_SIZE},
+    {"stats", required_argument, NULL, OPTION_STATS},
+    {"study", required_argument, NULL, OPTION_STUDY},
+    {"study-levels", required_argument, NULL, OPTION_STUDY_LEVELS},
+    {"study-repeats", required_argument, NULL, OPTION_STUDY_REPEATS},
+    {"study-samples", required_argument, NULL, OPTION_STUDY_SAMPLES},
+    {"tile", required_argument, NULL, OPTION_TILE},
+    {"verify", no_argument, NULL, OPTION_VERIFY},
+    {"version", no_argument, NULL, OPTION_VERSION},
+    {NULL, 0, NULL, 0}};
 
 void rt_options_help(FILE *out)
 {
-    fputs("Usage: rt [OPTION]... SCENE OUTPUT\n"
-          "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
-          "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
-          "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
-          "be left out with --verify, --hits or --stats.\n"
-          "\n"
-          "      --accel=HOW      bvh, the default, or none: try every primitive with every ray;\n"
-          "                       the picture is the same\n"
-          "      --accuracy=LEVEL fast, standard (the default), robust or double, whatever the\n"
-          "                       scene says\n"
-          "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
-          "                       accelerator, any part of a name, scalar (plain C in float) or\n"
-          "                       scalar-double; several with commas between them, or all,\n"
-          "                       share the picture; by default RT_DEVICE, else the first GPU,\n"
-          "                       else the first CPU\n"
-          "      --grammar        print the scene format as a table and exit\n"
-          "  -h, --help           print this help and exit\n"
-          "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
-          "      --lanes=N        rays in a vector when tracing: 1, 4, 8 or 16; by default the\n"
-          "                       device's native float width, 1 on a GPU\n"
-          "      --list-devices   list the OpenCL devices and exit\n"
-          "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"
-          "                       default: on a terminal), always or never\n"
-          "  -q, --quiet          print errors only\n"
-          "      --size=WxH       picture size in pixels, whatever the scene says\n"
-          "      --stats=FILE     write what was done and how long it took as JSON (- for\n"
-          "                       standard output)\n"
-          "      --tile=N         side of the tiles that the picture is rendered in, in pixels\n"
-          "      --verify         render with the scalar path too and compare\n"
-          "      --version        print the version and exit\n"
-          "\n"
-          "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
-          "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
-          "130 interrupted.\n",
-          out);
+    fputs(
+        "Usage: rt [OPTION]... SCENE OUTPUT\n"
+        "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
+        "       rt [OPTION]... --study=REPORT SCENE\n"
+        "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
+        "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
+        "be left out with --verify, --hits or --stats.\n"
+        "\n"
+        "      --accel=HOW      bvh, the default, or none: try every primitive with every ray;\n"
+        "                       the picture is the same\n"
+        "      --accuracy=LEVEL fast, standard (the default), robust or double, whatever the\n"
+        "                       scene says\n"
+        "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
+        "                       accelerator, any part of a name, scalar (plain C in float) or\n"
+        "                       scalar-double; several with commas between them, or all,\n"
+        "                       share the picture; by default RT_DEVICE, else the first GPU,\n"
+        "                       else the first CPU\n"
+        "      --grammar        print the scene format as a table and exit\n"
+        "  -h, --help           print this help and exit\n"
+        "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
+        "      --lanes=N        rays in a vector when tracing: 1, 4, 8 or 16; by default the\n"
+        "                       device's native float width, 1 on a GPU\n"
+        "      --list-devices   list the OpenCL devices and exit\n"
+        "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"
+        "                       default: on a terminal), always or never\n"
+        "  -q, --quiet          print errors only\n"
+        "      --size=WxH       picture size in pixels, whatever the scene says\n"
+        "      --stats=FILE     write what was done and how long it took as JSON (- for\n"
+        "                       standard output)\n"
+        "      --study=REPORT   measure what accuracy costs: the scene at every level and several\n"
+        "                       counts of samples, its errors and times, to REPORT.json, .csv,\n"
+        "                       .md, .svg and .png\n"
+        "      --study-levels=LEVELS\n"
+        "                       levels to study, with commas between them; all by default\n"
+        "      --study-repeats=N\n"
+        "                       timed repeats, 9 by default\n"
+        "      --study-samples=LIST\n"
+        "                       samples a pixel to study, 1,4,16,64 by default\n"
+        "      --tile=N         side of the tiles that the picture is rendered in, in pixels\n"
+        "      --verify         render with the scalar path too and compare\n"
+        "      --version        print the version and exit\n"
+        "\n"
+        "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
+        "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
+        "130 interrupted.\n",
+        out);
 }
 
 static bool fail(rt_status *status, const char *option, const char *value, const char *expected)
@@ -142,6 +162,22 @@ static bool read_progress(rt_options *options, const char *text, rt_status *stat
     return fail(status, "--progress", text, "auto, always or never");
 }
 
+static bool read_plan(rt_options *options, int code, const char *value, rt_status *status)
+{
+    rt_study_plan *plan = &options->plan;
+    options->has_plan = true;
+    if (code == OPTION_STUDY_LEVELS)
+        return rt_study_plan_read_levels(plan, value) ||
+               fail(status, "--study-levels", value,
+                    "fast, standard, robust or double, or several with commas between them");
+    if (code == OPTION_STUDY_SAMPLES)
+        return rt_study_plan_read_samples(plan, value) ||
+               fail(status, "--study-samples", value,
+                    "up to 16 whole numbers from 1 to 4096 with commas between them");
+    return read_whole(value, strlen(value), 1, RT_STUDY_REPEATS_MAX, &plan->repeats) ||
+           fail(status, "--study-repeats", value, "a whole number from 1 to 1000");
+}
+
 static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
 {
     switch (code) {
@@ -169,6 +205,13 @@ static bool read_option(rt_options *options, int code, const char *value, rt_sta
     case OPTION_STATS:
         options->stats = value;
         return true;
+    case OPTION_STUDY:
+        options->study = value;
+        return *value || fail(status, "--study", value, "what the names of the report begin with");
+    case OPTION_STUDY_LEVELS:
+    case OPTION_STUDY_REPEATS:
+    case OPTION_STUDY_SAMPLES:
+        return read_plan(options, code, value, status);
     case OPTION_PROGRESS:
         return read_progress(options, value, status);
     case OPTION_VERIFY:
@@ -219,12 +262,35 @@ static bool check_devices(const char *text, rt_status *status)
     return true;
 }
 
+/* A study is of one device, at levels and counts of samples of its own, and writes its own files.
+ */
+static bool check_study(const rt_options *o, rt_status *status)
+{
+    if (!o->study)
+        return !o->has_plan ||
+               fail_usage(status, "--study-levels, -repeats and -samples go with --study", "");
+    if (o->output)
+        return fail_usage(status, "--study writes no picture, so there is no place for ",
+                          o->output);
+    if (o->verify || o->hits || o->stats)
+        return fail_usage(status, "--study does not go with --verify, --hits or --stats", "");
+    if (o->has_accuracy)
+        return fail_usage(status, "--study takes --study-levels in the place of --accuracy", "");
+    if (o->target != RT_TARGET_DEVICE)
+        return fail_usage(status, "--study holds a device against the scalar path; choose one", "");
+    if (o->device && (strchr(o->device, ',') || strcasecmp(o->device, "all") == 0))
+        return fail_usage(status, "--study is of one device, not of --device ", o->device);
+    return true;
+}
+
 /* What options mean together. */
 static bool check(rt_options *o, rt_status *status)
 {
     if (!o->scene)
         return fail_usage(status, "no scene is given", "");
-    if (!o->output && !o->verify && !o->hits && !o->stats)
+    if (!check_study(o, status))
+        return false;
+    if (!o->output && !o->verify && !o->hits && !o->stats && !o->study)
         return fail_usage(status, "no output is given", "");
     if (o->quiet)
         o->progress = RT_PROGRESS_NEVER;
@@ -247,7 +313,7 @@ static bool check(rt_options *o, rt_status *status)
 
 bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *status)
 {
-    *options = (rt_options){.format = RT_IMAGE_UNKNOWN};
+    *options = (rt_options){.format = RT_IMAGE_UNKNOWN, .plan = rt_study_plan_default()};
     const char *environment = getenv("RT_DEVICE");
     if (environment && *environment)
         read_device(options, environment);

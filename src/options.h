@@ -8,6 +8,7 @@
 #include "accuracy.h"
 #include "image.h"
 #include "status.h"
+#include "study_plan.h"
 
 #define RT_VERSION "0.1.0"
 
@@ -42,6 +43,9 @@ typedef struct rt_options {
     int lanes, tile;                /* 0 for the default */
     enum rt_progress_when progress; /* RT_PROGRESS_NEVER with quiet */
     bool verify, quiet;
+    const char *study; /* what the names of the report begin with, or NULL */
+    bool has_plan;     /* whether an option narrows the study */
+    rt_study_plan plan;
 } rt_options;
 
 /* Reads argv and the environment variable RT_DEVICE. On misuse returns false with code

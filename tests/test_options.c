@@ -67,6 +67,22 @@ static void good_lines(void **state)
     assert_true(o.verify);
     assert_int_equal(read_line("--stats - s.txt", &o, message, sizeof message), RT_OK);
     assert_int_equal(read_line("--hits h s.txt", &o, message, sizeof message), RT_OK);
+    assert_int_equal(read_line("--study r s.txt", &o, message, sizeof message), RT_OK);
+    assert_string_equal(o.study, "r");
+    assert_true(o.plan.levels[RT_ACCURACY_FAST] && o.plan.levels[RT_ACCURACY_DOUBLE]);
+    assert_int_equal(o.plan.sample_count, 4);
+    assert_int_equal(o.plan.samples[3], 64);
+    assert_int_equal(o.plan.repeats, 9);
+    assert_int_equal(read_line("--study r --study-levels robust,fast --study-samples 16,1,16 "
+                               "--study-repeats 3 s.txt",
+                               &o, message, sizeof message),
+                     RT_OK);
+    assert_true(o.plan.levels[RT_ACCURACY_FAST] && o.plan.levels[RT_ACCURACY_ROBUST]);
+    assert_false(o.plan.levels[RT_ACCURACY_STANDARD] || o.plan.levels[RT_ACCURACY_DOUBLE]);
+    assert_int_equal(o.plan.sample_count, 2);
+    assert_int_equal(o.plan.samples[0], 1);
+    assert_int_equal(o.plan.samples[1], 16);
+    assert_int_equal(o.plan.repeats, 3);
     assert_int_equal(read_line("--help", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.action, RT_ACTION_HELP);
     assert_int_equal(read_line("--version", &o, message, sizeof message), RT_OK);
@@ -125,6 +141,26 @@ static void misuse(void **state)
         {"s.txt o.png --device 0,Scalar", "the scalar path renders alone"},
         {"s.txt o.png --device scalar-double,0", "the scalar path renders alone"},
         {"s.txt o.png --device cpu,all", "all devices cannot be part of a list"},
+        {"--study r s.txt o.png", "--study writes no picture, so there is no place for o.png"},
+        {"--study= s.txt", "--study takes"},
+        {"--study r --verify s.txt", "--study does not go with"},
+        {"--study r --hits h s.txt", "--study does not go with"},
+        {"--study r --stats - s.txt", "--study does not go with"},
+        {"--study r --accuracy fast s.txt", "--study takes --study-levels"},
+        {"--study r --device scalar s.txt", "--study holds a device"},
+        {"--study r --device 0,cpu s.txt", "--study is of one device"},
+        {"--study r --device all s.txt", "--study is of one device"},
+        {"--study-levels fast s.txt o.png", "go with --study"},
+        {"--study r --study-levels fast,exact s.txt",
+         "found 'fast,exact'; --study-levels takes fast, standard, robust or double"},
+        {"--study r --study-levels=fast, s.txt", "--study-levels takes"},
+        {"--study r --study-levels= s.txt", "--study-levels takes"},
+        {"--study r --study-samples 1,0 s.txt", "--study-samples takes up to 16"},
+        {"--study r --study-samples 4097 s.txt", "--study-samples takes"},
+        {"--study r --study-samples 1,,4 s.txt", "--study-samples takes"},
+        {"--study r --study-samples 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17 s.txt",
+         "--study-samples takes"},
+        {"--study r --study-repeats 0 s.txt", "--study-repeats takes a whole number from 1"},
         {"s.txt o.png --progress some", "found 'some'; --progress takes auto, always or never"},
     };
     char message[512];

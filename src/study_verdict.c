@@ -1,0 +1,170 @@
+#define _GNU_SOURCE
+#include "study_verdict.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+/* A level has to change more than one pixel for so many that too few samples make wrong. */
+#define HIDDEN_BY 100
+
+void rt_study_conclude(rt_study *study)
+{
+    rt_study_point points[RT_STUDY_SAMPLES_LISTED * RT_ACCURACY_COUNT];
+    for (size_t i = 0; i < study->cell_count; ++i)
+        points[i] = (rt_study_point){study->cells[i].kernel, study->cells[i].seen.rms};
+    for (size_t i = 0; i < study->cell_count; ++i)
+        study->cells[i].seen_is_dominated = rt_study_is_dominated(points, study->cell_count, i);
+    /* More samples do not make arithmetic better: here a level competes at its own count only. */
+    for (size_t i = 0; i < study->cell_count; ++i) {
+        const size_t first = i / study->level_count * study->level_count;
+        for (size_t k = 0; k < study->level_count; ++k)
+            points[k] = (rt_study_point){study->cells[first + k].kernel,
+                                         study->cells[first + k].arithmetic.rms};
+        study->cells[i].arithmetic_is_dominated =
+            rt_study_is_dominated(points, study->level_count, i - first);
+    }
+}
+
+bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index)
+{
+    const size_t changed = rt_study_cell_at(study, sample_index, level_index)->changed;
+    return changed * HIDDEN_BY > study->sampling[sample_index].over_1;
+}
+
+bool rt_study_is_free(const rt_spread *ratio)
+{
+    return ratio->low <= 1.0 && ratio->high >= 1.0;
+}
+
+/* "1, 4 and 16": the counts at which the level can be seen, or those at which it cannot. */
+static void list_counts(const rt_study *study, size_t level_index, bool seen, FILE *out)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < study->plan.sample_count; ++i)
+        left += rt_study_can_be_seen(study, i, level_index) == seen;
+    for (size_t i = 0; i < study->plan.sample_count; ++i)
+        if (rt_study_can_be_seen(study, i, level_index) == seen) {
+            --left;
+            fprintf(out, "%d%s", study->plan.samples[i], left > 1 ? ", " : left ? " and " : "");
+        }
+}
+
+/* What the level does to the picture at the finest count at which it can be seen. */
+static void say_how_much(const rt_study *study, size_t level_index, FILE *out)
+{
+    size_t i = study->plan.sample_count - 1;
+    while (!rt_study_can_be_seen(study, i, level_index))
+        --i;
+    size_t base = 0;
+    while (study->levels[base].level != study->base)
+        ++base;
+    const rt_study_cell *cell = rt_study_cell_at(study, i, level_index);
+    fprintf(
+        out,
+        " (at %d: %zu of %zu pixels by more than one step; arithmetic alone makes %zu pixels of "
+        "%s wrong by more than one step, and %zu of %s)",
+        study->plan.samples[i], cell->changed, (size_t)study->width * (size_t)study->height,
+        rt_study_cell_at(study, i, base)->arithmetic.over_1, rt_accuracy_name(study->base),
+        cell->arithmetic.over_1, rt_accuracy_name(cell->level));
+}
+
+/* Whether all counts from `from` up to `to` are alike. */
+static bool all_are(const rt_study *study, size_t level_index, size_t from, size_t to, bool seen)
+{
+    for (size_t i = from; i < to; ++i)
+        if (rt_study_can_be_seen(study, i, level_index) != seen)
+            return false;
+    return true;
+}
+
+static void say_what_it_buys(const rt_study *study, size_t level_index, FILE *out)
+{
+    const char *name = rt_accuracy_name(study->levels[level_index].level);
+    const int *samples = study->plan.samples;
+    const size_t count = study->plan.sample_count;
+    size_t turn = 1; /* the first count that is unlike the one before */
+    while (turn < count && rt_study_can_be_seen(study, turn, level_index) ==
+                               rt_study_can_be_seen(study, 0, level_index))
+        ++turn;
+    const bool seen = rt_study_can_be_seen(study, 0, level_index);
+    if (turn == count && !seen) {
+        fprintf(out, "%s %d sample%s a pixel, %s changes nothing that you can see on this scene.",
+                count > 1 ? "Up to" : "At", samples[count - 1], samples[count - 1] > 1 ? "s" : "",
+                name);
+        return;
+    }
+    if (turn == count)
+        fprintf(out, "At every count of samples, %s changes what you see on this scene", name);
+    else if (!seen && all_are(study, level_index, turn, count, true))
+        fprintf(out,
+                "Below %d samples a pixel, %s changes nothing that you can see on this scene; from "
+                "%d on it does",
+                samples[turn], name, samples[turn]);
+    else if (seen && all_are(study, level_index, turn, count, false))
+        fprintf(out,
+                "From %d samples a pixel on, %s changes nothing that you can see on this scene; "
+                "below it does",
+                samples[turn], name);
+    else {
+        fprintf(out, "At ");
+        list_counts(study, level_index, false, out);
+        fprintf(out, " samples a pixel, %s changes nothing that you can see on this scene; at ",
+                name);
+        list_counts(study, level_index, true, out);
+        fprintf(out, " it does");
+    }
+    say_how_much(study, level_index, out);
+    fputc('.', out);
+}
+
+/* By the finest pictures, whose times are the longest and therefore the surest. */
+static void say_what_it_costs(const rt_study *study, size_t level_index, FILE *out)
+{
+    const rt_study_cell *cell = rt_study_cell_at(study, study->plan.sample_count - 1, level_index);
+    const rt_spread *r = &cell->ratio;
+    const char *base = rt_accuracy_name(study->base);
+    const char *time = study->kernel_is_wall ? "time" : "kernel time";
+    if (rt_study_is_free(r))
+        fprintf(out,
+                " Against %s it has no measurable cost: %.2f of its %s, quartiles %.2f to "
+                "%.2f.",
+                base, r->median, time, r->low, r->high);
+    else
+        fprintf(out, " It takes %.2f times the %s of %s, quartiles %.2f to %.2f.", r->median, time,
+                base, r->low, r->high);
+}
+
+static bool levels_agree(const rt_study *study)
+{
+    for (size_t i = 0; i < study->level_count; ++i)
+        if (!all_are(study, i, 0, study->plan.sample_count, false))
+            return false;
+    return true;
+}
+
+char *rt_study_verdict(const rt_study *study)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    if (study->level_count > 1 && levels_agree(study))
+        fputs("The levels agree: this scene has no case so hard that one could see a difference.\n",
+              out);
+    for (size_t i = 0; i < study->level_count; ++i) {
+        if (study->levels[i].level == study->base)
+            continue;
+        fputs(ftell(out) > 0 ? "\n" : "", out);
+        say_what_it_buys(study, i, out);
+        say_what_it_costs(study, i, out);
+        fputc('\n', out);
+    }
+    if (study->level_count == 1)
+        fprintf(out, "Only %s was studied: there is nothing to hold it against.\n",
+                rt_accuracy_name(study->base));
+    if (fclose(out) == 0)
+        return text;
+    free(text);
+    return NULL;
+}

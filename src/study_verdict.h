@@ -1,0 +1,19 @@
+/* From a study's figures to the sentences that a user takes away. */
+#ifndef RT_STUDY_VERDICT_H
+#define RT_STUDY_VERDICT_H
+
+#include "study.h"
+
+/* Whether the level changes something that one can see at that count: it changes pixels by more
+ * than one step from the base level, and more than one for every hundred that too few samples make
+ * wrong by more than one step anyway. */
+bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index);
+
+/* Whether the quartiles of the ratio have 1 between them: no measurable cost. */
+bool rt_study_is_free(const rt_spread *ratio);
+
+/* What to take away, a sentence or two a paragraph, with an empty line between paragraphs; the
+ * caller frees it. NULL without memory. */
+char *rt_study_verdict(const rt_study *study);
+
+#endif
