@@ -4,7 +4,7 @@
 
 typedef struct rays {
     real3 origin, direction;
-    real3 inverse; /* 1 / direction, finite: the largest float where a component is 0 */
+    real3 inverse; /* 1 / direction, finite: the largest number where a component is 0 */
     real tmin;
 #if RT_SPHERES
     real dd, inv_dd; /* dot(direction, direction) and its reciprocal */
@@ -99,7 +99,7 @@ INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask a
     const real3 p = CROSS(real3, r->direction, e2);
     const real signed_det = DOT(e1, p);
     /* Multiplying by the determinant's sign, as one flip of the sign bit. */
-    const mask sign = AS_MASK(signed_det) & (mask)0x80000000;
+    const mask sign = AS_MASK(signed_det) & (mask)SIGN_BIT;
     m->det = AS_REAL(AS_MASK(signed_det) ^ sign);
 #if RT_CULL > 0
     const mask facing = MASK(signed_det > (real)0.0f);

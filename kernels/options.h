@@ -8,6 +8,10 @@
 #if RT_ACCURACY < 0 || RT_ACCURACY > 3
 #error "RT_ACCURACY must be from 0 to 3"
 #endif
+#define RT_FAST 0
+#define RT_STANDARD 1
+#define RT_ROBUST 2
+#define RT_DOUBLE 3
 
 /* Rays that one work-item of the trace stage carries, each in its own lane of a vector type. */
 #ifndef RT_LANES
@@ -173,4 +177,8 @@
 #endif
 #if RT_ROUNDING < 0 || RT_ROUNDING > 2
 #error "RT_ROUNDING must be 0, 1 or 2"
+#endif
+
+#if RT_ACCURACY == RT_DOUBLE || RT_ROUNDING == 1
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #endif

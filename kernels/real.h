@@ -5,39 +5,53 @@
  * compiler to contract: contraction on or off, the bits are the same. */
 #pragma OPENCL FP_CONTRACT OFF
 
-#if RT_ROUNDING == 1
-#pragma OPENCL EXTENSION cl_khr_fp64 : enable
-#endif
+#define RT_PASTE_(a, b) a##b
+#define RT_PASTE(a, b) RT_PASTE_(a, b)
 
 /* What rays, hits and shading are computed in; the trace stage has a `real` of them in its lanes.
- */
-typedef float number;
-#define RT_HALF_ULP 0x1p-24f /* of a number at 1 */
+ * Boxes and primitives are float at every level. */
+#if RT_ACCURACY == RT_DOUBLE
+#define RT_NUMBER double
+#define RT_BITS long
+#define NUMBER_MAX DBL_MAX
+#define RT_HALF_ULP 0x1p-53
+#define SIGN_BIT 0x8000000000000000L
+#else
+#define RT_NUMBER float
+#define RT_BITS int
+#define NUMBER_MAX FLT_MAX
+#define RT_HALF_ULP 0x1p-24f
+#define SIGN_BIT 0x80000000
+#endif
+typedef RT_NUMBER number;
+
+/* The children of a node, in lanes. */
+typedef RT_PASTE(RT_NUMBER, 16) number16;
+typedef RT_PASTE(RT_BITS, 16) mask16;
+#define LOAD_16(p) RT_PASTE(RT_PASTE(convert_, RT_NUMBER), 16)(vload16(0, p))
 
 #if RT_LANES == 1
-typedef float real;
-typedef int mask;
-#define AS_REAL as_float
-#define AS_MASK as_int
+typedef number real;
+typedef RT_BITS mask;
+#define AS_REAL RT_PASTE(as_, RT_NUMBER)
+#define AS_MASK RT_PASTE(as_, RT_BITS)
 #define LOAD_REAL(p) (*(p))
 #define STORE_REAL(v, p) (*(p) = (v))
-#define STORE_MASK(v, p) (*(p) = (v))
+#define STORE_INDEX(v, p) (*(p) = (int)(v))
 /* Scalar comparisons give 1 for true, vector ones -1. */
-#define MASK(condition) (-(condition))
+#define MASK(condition) (-(mask)(condition))
 #define ANY(m) ((m) != 0)
 #define SELECT(off, on, m) ((m) ? (on) : (off))
 #else
-#define RT_PASTE_(a, b) a##b
-#define RT_PASTE(a, b) RT_PASTE_(a, b)
-typedef RT_PASTE(float, RT_LANES) real;
-typedef RT_PASTE(int, RT_LANES) mask;
-#define AS_REAL RT_PASTE(as_float, RT_LANES)
-#define AS_MASK RT_PASTE(as_int, RT_LANES)
+typedef RT_PASTE(RT_NUMBER, RT_LANES) real;
+typedef RT_PASTE(RT_BITS, RT_LANES) mask;
+#define AS_REAL RT_PASTE(RT_PASTE(as_, RT_NUMBER), RT_LANES)
+#define AS_MASK RT_PASTE(RT_PASTE(as_, RT_BITS), RT_LANES)
 #define LOAD_REAL(p) RT_PASTE(vload, RT_LANES)(0, p)
 #define STORE_REAL(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
-#define STORE_MASK(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
+#define STORE_INDEX(v, p) RT_PASTE(vstore, RT_LANES)(RT_PASTE(convert_int, RT_LANES)(v), 0, p)
 #define MASK(condition) (condition)
-#define ANY(m) RT_PASTE(lanes_or, RT_LANES)(m)
+#define ANY(m) RT_PASTE(lanes_or, RT_LANES)(RT_PASTE(convert_char, RT_LANES)(m))
 #define SELECT(off, on, m) select(off, on, m)
 #endif
 
@@ -46,17 +60,17 @@ typedef RT_PASTE(int, RT_LANES) mask;
 
 /* Whether a lane is on. Written out because PoCL's any() tests lane after lane with a branch each;
  * as bytes the lanes fit into one or two integers. */
-INLINE int lanes_or4(int4 m)
+INLINE int lanes_or4(char4 m)
 {
-    return as_int(convert_char4(m)) != 0;
+    return as_int(m) != 0;
 }
-INLINE int lanes_or8(int8 m)
+INLINE int lanes_or8(char8 m)
 {
-    return as_long(convert_char8(m)) != 0;
+    return as_long(m) != 0;
 }
-INLINE int lanes_or16(int16 m)
+INLINE int lanes_or16(char16 m)
 {
-    const long2 halves = as_long2(convert_char16(m));
+    const long2 halves = as_long2(m);
     return (halves.x | halves.y) != 0;
 }
 
@@ -74,29 +88,29 @@ INLINE int lanes_or16(int16 m)
 #define LEAST(v) (v)
 #define MOST(v) (v)
 #else
-INLINE float least4(float4 v)
+INLINE number least4(RT_PASTE(RT_NUMBER, 4) v)
 {
-    const float2 half_ = LESSER_N(v.lo, v.hi);
+    const RT_PASTE(RT_NUMBER, 2) half_ = LESSER_N(v.lo, v.hi);
     return LESSER_1(half_.x, half_.y);
 }
-INLINE float most4(float4 v)
+INLINE number most4(RT_PASTE(RT_NUMBER, 4) v)
 {
-    const float2 half_ = GREATER_N(v.lo, v.hi);
+    const RT_PASTE(RT_NUMBER, 2) half_ = GREATER_N(v.lo, v.hi);
     return GREATER_1(half_.x, half_.y);
 }
-INLINE float least8(float8 v)
+INLINE number least8(RT_PASTE(RT_NUMBER, 8) v)
 {
     return least4(LESSER_N(v.lo, v.hi));
 }
-INLINE float most8(float8 v)
+INLINE number most8(RT_PASTE(RT_NUMBER, 8) v)
 {
     return most4(GREATER_N(v.lo, v.hi));
 }
-INLINE float least16(float16 v)
+INLINE number least16(RT_PASTE(RT_NUMBER, 16) v)
 {
     return least8(LESSER_N(v.lo, v.hi));
 }
-INLINE float most16(float16 v)
+INLINE number most16(RT_PASTE(RT_NUMBER, 16) v)
 {
     return most8(GREATER_N(v.lo, v.hi));
 }
@@ -122,8 +136,8 @@ typedef struct real3 {
  * By way of double the second rounding is harmless, because 53 bits are more than twice 24 and two
  * (Figueroa 1995). By fma: a reciprocal and a quotient within a few ulp become correctly rounded
  * after the residual is added back (Markstein 1990), as long as nothing leaves the range of normal
- * numbers. */
-#if RT_ROUNDING == 0
+ * numbers. In double OpenCL C itself asks for it. */
+#if RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE
 #define DIVIDE(a, b) ((a) / (b))
 #define ROOT(a) sqrt(a)
 #elif RT_ROUNDING == 1

@@ -43,7 +43,7 @@ rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_in
     const vec3 tuv = LOAD3(hit_array, stride, i);
     __global int *out = records + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * 4;
     out[0] = hit_index[i];
-    out[1] = as_int(tuv.x);
-    out[2] = as_int(tuv.y);
-    out[3] = as_int(tuv.z);
+    out[1] = as_int((float)tuv.x);
+    out[2] = as_int((float)tuv.y);
+    out[3] = as_int((float)tuv.z);
 }

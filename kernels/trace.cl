@@ -2,11 +2,11 @@
  * all, RT_PACKET rays a work-item. Rendering, tests and benchmarks all launch this kernel: what is
  * tested is what renders. */
 
-/* 1 / d, finite: the largest float where d is zero or denormal. */
+/* 1 / d, finite: the largest number where d is zero or denormal. */
 INLINE real finite_reciprocal(real d)
 {
     const real inverse = DIVIDE((real)1.0f, d);
-    return LESSER(GREATER(inverse, (real)-FLT_MAX), (real)FLT_MAX);
+    return LESSER(GREATER(inverse, (real)-NUMBER_MAX), (real)NUMBER_MAX);
 }
 
 /* Rays from the array; t is their tmax, or -infinity for rays that cannot hit anything because
@@ -45,8 +45,8 @@ INLINE void store_hits(const hits *h, size_t at, size_t step, __global int *hit_
                        __global int *hit_slot, __global number *hit_array)
 {
     const real t = SELECT(h->t, (real)INFINITY, MASK(h->index == (mask)RT_MISS));
-    STORE_MASK(h->index, hit_index + at);
-    STORE_MASK(h->slot, hit_slot + at);
+    STORE_INDEX(h->index, hit_index + at);
+    STORE_INDEX(h->slot, hit_slot + at);
     STORE_REAL(t, hit_array + at + RT_HIT_T * step);
     STORE_REAL(DIVIDE(h->u, h->det), hit_array + at + RT_HIT_U * step);
     STORE_REAL(DIVIDE(h->v, h->det), hit_array + at + RT_HIT_V * step);
@@ -90,6 +90,6 @@ rt_occlude(const int stride, __global const number *ray_array, __global const rt
     load_packet(ray_array + first, (size_t)stride, &p);
     walk(&p, &w, 1);
     for (int g = 0; g < RT_GROUPS; ++g)
-        STORE_MASK(p.h[g].index, hit_index + first + g * RT_LANES);
+        STORE_INDEX(p.h[g].index, hit_index + first + g * RT_LANES);
 }
 #endif

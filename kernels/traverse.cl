@@ -25,23 +25,23 @@ INLINE void walk(packet *p, const world *w, const int any)
 /* What the rays of a packet have in common along one axis. The axis is mirrored where the rays go
  * down it, so that they all go up. */
 typedef struct bundle_axis {
-    float first, last;      /* least and greatest origin */
-    float slowest, fastest; /* least and greatest reciprocal direction */
+    number first, last;      /* least and greatest origin */
+    number slowest, fastest; /* least and greatest reciprocal direction */
     int mirrored;
     int mixed; /* some go up and some down: the axis tells nothing */
 } bundle_axis;
 
 typedef struct bundle {
     bundle_axis x, y, z;
-    float tmin, tmax; /* least tmin, greatest t that is still of interest; tmin > tmax: no ray */
+    number tmin, tmax; /* least tmin, greatest t that is still of interest; tmin > tmax: no ray */
 } bundle;
 
 /* One axis of the bundle from the groups' origins and inverses. Dead lanes are passed over: they
  * would widen it. */
 #define BUNDLE_AXIS(p, axis, out)                                                                  \
     do {                                                                                           \
-        real low_o = (real)FLT_MAX, high_o = (real)-FLT_MAX;                                       \
-        real low_i = (real)FLT_MAX, high_i = (real)-FLT_MAX;                                       \
+        real low_o = (real)NUMBER_MAX, high_o = (real)-NUMBER_MAX;                                 \
+        real low_i = (real)NUMBER_MAX, high_i = (real)-NUMBER_MAX;                                 \
         for (int g = 0; g < RT_GROUPS; ++g) {                                                      \
             const mask on = alive(&(p)->r[g], &(p)->h[g]);                                         \
             const real o = (p)->r[g].origin.axis, i = (p)->r[g].inverse.axis;                      \
@@ -50,8 +50,8 @@ typedef struct bundle {
             low_i = SELECT(low_i, LESSER(i, low_i), on);                                           \
             high_i = SELECT(high_i, GREATER(i, high_i), on);                                       \
         }                                                                                          \
-        const float o0 = LEAST(low_o), o1 = MOST(high_o);                                          \
-        const float i0 = LEAST(low_i), i1 = MOST(high_i);                                          \
+        const number o0 = LEAST(low_o), o1 = MOST(high_o);                                         \
+        const number i0 = LEAST(low_i), i1 = MOST(high_i);                                         \
         (out)->mirrored = i1 < 0.0f;                                                               \
         (out)->mixed = i0 < 0.0f && i1 > 0.0f;                                                     \
         (out)->first = i1 < 0.0f ? -o1 : o0;                                                       \
@@ -61,7 +61,7 @@ typedef struct bundle {
     } while (0)
 
 /* The greatest t that is still of interest to some ray; -infinity without one. */
-INLINE float farthest(const packet *p)
+INLINE number farthest(const packet *p)
 {
     real high = (real)-INFINITY;
     for (int g = 0; g < RT_GROUPS; ++g)
@@ -69,7 +69,7 @@ INLINE float farthest(const packet *p)
     return MOST(high);
 }
 
-INLINE float least_tmin(const packet *p)
+INLINE number least_tmin(const packet *p)
 {
     real low = (real)INFINITY;
     for (int g = 0; g < RT_GROUPS; ++g)
@@ -80,16 +80,16 @@ INLINE float least_tmin(const packet *p)
 /* Narrows [enter, leave] of 16 boxes by one axis. For each ray of the bundle its own interval, as
  * box_interval computes it, lies within: every operation rounds monotonely. */
 INLINE void narrow(const bundle_axis *a, __global const float *lo, __global const float *hi,
-                   float16 *enter, float16 *leave)
+                   number16 *enter, number16 *leave)
 {
     if (a->mixed)
         return;
-    float16 near = vload16(0, a->mirrored ? hi : lo);
-    float16 far = vload16(0, a->mirrored ? lo : hi);
+    number16 near = LOAD_16(a->mirrored ? hi : lo);
+    number16 far = LOAD_16(a->mirrored ? lo : hi);
     near = (a->mirrored ? -near : near) - a->last;
     far = (a->mirrored ? -far : far) - a->first;
-    near = near * select((float16)a->slowest, (float16)a->fastest, near < 0.0f);
-    far = far * select((float16)a->fastest, (float16)a->slowest, far < 0.0f);
+    near = near * select((number16)a->slowest, (number16)a->fastest, near < 0.0f);
+    far = far * select((number16)a->fastest, (number16)a->slowest, far < 0.0f);
     *enter = select(*enter, near, near > *enter);
     *leave = select(*leave, far, far < *leave);
 }
@@ -97,7 +97,7 @@ INLINE void narrow(const bundle_axis *a, __global const float *lo, __global cons
 /* The lanes of a mask as bits, lane 0 lowest. Bytes of ones and zeros: each keeps the bit of its
  * place, and a multiplication adds the eight up in the top byte. Little-endian, as every OpenCL
  * device there is. */
-INLINE int bits_of(int16 m)
+INLINE int bits_of(mask16 m)
 {
     const ulong2 v = as_ulong2(convert_char16(m));
     const ulong x = (v.x & 0x8040201008040201UL) * 0x0101010101010101UL;
@@ -124,9 +124,10 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
 #define LOWEST_BIT(bits) ((int)popcount(((bits) & -(bits)) - 1))
 
 /* Puts the children that a node's test has left onto the stack, the nearest on top. */
-INLINE int push_children(int16 meets, float16 enter, int code, int *codes, float *enters, int top)
+INLINE int push_children(mask16 meets, number16 enter, int code, int *codes, number *enters,
+                         int top)
 {
-    float nearest[RT_WIDTH];
+    number nearest[RT_WIDTH];
     vstore16(enter, 0, nearest);
     const int bottom = top;
     for (int left = bits_of(meets); left; left &= left - 1) {
@@ -155,18 +156,18 @@ INLINE void bundle_up(const packet *p, bundle *b)
 INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
 {
     int codes[RT_STACK]; /* parent * RT_WIDTH + child */
-    float enters[RT_STACK];
+    number enters[RT_STACK];
     int top = 0;
     int node = b->tmin <= b->tmax ? 0 : -1;
     while (node >= 0) {
         __global const rt_node *n = w->nodes + node;
-        float16 enter = (float16)b->tmin, leave = (float16)b->tmax;
+        number16 enter = (number16)b->tmin, leave = (number16)b->tmax;
         narrow(&b->x, n->lo_x, n->hi_x, &enter, &leave);
         narrow(&b->y, n->lo_y, n->hi_y, &enter, &leave);
         narrow(&b->z, n->lo_z, n->hi_z, &enter, &leave);
         /* The margin of box_interval, and empty boxes out. */
-        const int16 meets =
-            (enter <= leave * RT_SLAB_MARGIN) & (vload16(0, n->lo_x) <= vload16(0, n->hi_x));
+        const mask16 meets =
+            (enter <= leave * RT_SLAB_MARGIN) & (LOAD_16(n->lo_x) <= LOAD_16(n->hi_x));
         top = push_children(meets, enter, node * RT_WIDTH, codes, enters, top);
         node = -1;
         while (top > 0 && node < 0) {
@@ -193,22 +194,27 @@ INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
 
 /* The lanes that a block fills. What a whole vector loads beyond the block is not looked at; arrays
  * end with enough to load. */
+typedef RT_PASTE(RT_BITS, 4) mask4;
+typedef RT_PASTE(RT_BITS, 8) mask8;
 #if RT_LANES == 4
-#define BLOCK_LANES ((int4)-1)
+#define BLOCK_LANES ((mask4)-1)
 #elif RT_LANES == 8
-#define BLOCK_LANES ((int8)((int4)-1, (int4)0))
+#define BLOCK_LANES ((mask8)((mask4)-1, (mask4)0))
 #else
-#define BLOCK_LANES ((int16)((int4)-1, (int4)0, (int8)0))
+#define BLOCK_LANES ((mask16)((mask4)-1, (mask4)0, (mask8)0))
 #endif
-#define BLOCK_LOAD(p) RT_PASTE(vload, RT_LANES)(0, p)
+#define BLOCK_LOAD(p)                                                                              \
+    RT_PASTE(RT_PASTE(convert_, RT_NUMBER), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
+#define BLOCK_LOAD_INDEX(p)                                                                        \
+    RT_PASTE(RT_PASTE(convert_, RT_BITS), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
 
 /* Lane k of a vector in memory. */
-#define LANE(v, k) (((float *)&(v))[k])
-#define LANE_OF_MASK(v, k) (((int *)&(v))[k])
+#define LANE(v, k) (((number *)&(v))[k])
+#define LANE_OF_MASK(v, k) (((RT_BITS *)&(v))[k])
 
 /* What a ray has hit so far. */
 typedef struct hit {
-    float t, u, v, det;
+    number t, u, v, det;
     int index, slot;
 } hit;
 
@@ -219,8 +225,8 @@ INLINE void take_best(hit *h, meeting *m, mask index, int block, const int any)
     if (!ANY(m->on))
         return;
     for (int k = 0; k < RT_BLOCK_PRIMITIVES; ++k) {
-        const float t = LANE(m->t, k);
-        const int i = LANE_OF_MASK(index, k);
+        const number t = LANE(m->t, k);
+        const int i = (int)LANE_OF_MASK(index, k);
         if (!LANE_OF_MASK(m->on, k) || !(t < h->t || (t == h->t && i < h->index)))
             continue;
         h->t = any ? -INFINITY : t;
@@ -245,7 +251,7 @@ INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int
         __global const rt_sphere_block *s = w->spheres + block;
         const real3 center = {BLOCK_LOAD(s->cx), BLOCK_LOAD(s->cy), BLOCK_LOAD(s->cz)};
         if (meet_spheres(r, center, BLOCK_LOAD(s->radius), BLOCK_LANES, &m))
-            take_best(h, &m, BLOCK_LOAD(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
+            take_best(h, &m, BLOCK_LOAD_INDEX(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
         return;
     }
 #endif
@@ -256,16 +262,16 @@ INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int
     const real3 c = {BLOCK_LOAD(t->cx), BLOCK_LOAD(t->cy), BLOCK_LOAD(t->cz)};
     __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
     if (meet_triangles(r, a, b, c, BLOCK_LANES, &m))
-        take_best(h, &m, BLOCK_LOAD(order), block, any);
+        take_best(h, &m, BLOCK_LOAD_INDEX(order), block, any);
 #endif
 }
 
 /* Narrows [enter, leave] of 16 boxes by one axis of one ray, as box_interval does. */
-INLINE void narrow_one(float origin, float inverse, __global const float *lo,
-                       __global const float *hi, float16 *enter, float16 *leave)
+INLINE void narrow_one(number origin, number inverse, __global const float *lo,
+                       __global const float *hi, number16 *enter, number16 *leave)
 {
-    const float16 near = (vload16(0, inverse < 0.0f ? hi : lo) - origin) * inverse;
-    const float16 far = (vload16(0, inverse < 0.0f ? lo : hi) - origin) * inverse;
+    const number16 near = (LOAD_16(inverse < 0.0f ? hi : lo) - origin) * inverse;
+    const number16 far = (LOAD_16(inverse < 0.0f ? lo : hi) - origin) * inverse;
     *enter = GREATER_N(near, *enter);
     *leave = LESSER_N(far, *leave);
 }
@@ -279,16 +285,16 @@ INLINE int follow(const rays *r, hit *h, const world *w, int child, const int an
     return -1;
 }
 
-INLINE void walk_one(const rays *r, float tmin, hit *h, const world *w, const int any)
+INLINE void walk_one(const rays *r, number tmin, hit *h, const world *w, const int any)
 {
     int children[RT_STACK];
-    float enters[RT_STACK];
+    number enters[RT_STACK];
     int top = 0, node = 0;
-    const float ox = LANE(r->origin.x, 0), oy = LANE(r->origin.y, 0), oz = LANE(r->origin.z, 0);
-    const float ix = LANE(r->inverse.x, 0), iy = LANE(r->inverse.y, 0), iz = LANE(r->inverse.z, 0);
+    const number ox = LANE(r->origin.x, 0), oy = LANE(r->origin.y, 0), oz = LANE(r->origin.z, 0);
+    const number ix = LANE(r->inverse.x, 0), iy = LANE(r->inverse.y, 0), iz = LANE(r->inverse.z, 0);
     while (node >= 0) {
         __global const rt_node *n = w->nodes + node;
-        float16 enter = (float16)tmin, leave = (float16)h->t;
+        number16 enter = (number16)tmin, leave = (number16)h->t;
         narrow_one(ox, ix, n->lo_x, n->hi_x, &enter, &leave);
         narrow_one(oy, iy, n->lo_y, n->hi_y, &enter, &leave);
         narrow_one(oz, iz, n->lo_z, n->hi_z, &enter, &leave);
@@ -297,13 +303,13 @@ INLINE void walk_one(const rays *r, float tmin, hit *h, const world *w, const in
         if (left) {
             /* The nearest child is followed, the others wait: sorting them costs more than it
              * saves. */
-            float nearest[RT_WIDTH];
+            number nearest[RT_WIDTH];
             vstore16(enter, 0, nearest);
             int c = LOWEST_BIT(left);
-            float e = nearest[c];
+            number e = nearest[c];
             for (left &= left - 1; left; left &= left - 1) {
                 const int other = LOWEST_BIT(left);
-                const float o = nearest[other];
+                const number o = nearest[other];
                 const int is_nearer = o < e;
                 enters[top] = is_nearer ? e : o;
                 children[top++] = n->child[is_nearer ? c : other];
@@ -342,7 +348,7 @@ INLINE void walk_rays(packet *p, const world *w, const int any)
         hits *to = &p->h[i / RT_LANES];
         const int k = i % RT_LANES;
         hit h = {LANE(to->t, k), 0.0f, 0.0f, 1.0f, RT_MISS, RT_MISS};
-        const float tmin = LANE(from->tmin, k);
+        const number tmin = LANE(from->tmin, k);
         if (!(h.t > tmin))
             continue;
         rays r;

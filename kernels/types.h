@@ -118,16 +118,27 @@ typedef struct rt_light {
 /* The direction of pixel (x, y) before it is made unit:
  * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward. The lens is the disk that lens_right
  * and lens_up span about the origin; what is at `focus` along the view is sharp. */
-typedef struct rt_frame {
-    float ox, oy, oz;
-    float right_x, right_y, right_z;
-    float up_x, up_y, up_z;
-    float forward_x, forward_y, forward_z;
-    float lens_right_x, lens_right_y, lens_right_z;
-    float lens_up_x, lens_up_y, lens_up_z;
-    float focus;
-    int width, height;
-} rt_frame;
+#define RT_FRAME(number)                                                                           \
+    {                                                                                              \
+        number ox, oy, oz;                                                                         \
+        number right_x, right_y, right_z;                                                          \
+        number up_x, up_y, up_z;                                                                   \
+        number forward_x, forward_y, forward_z;                                                    \
+        number lens_right_x, lens_right_y, lens_right_z;                                           \
+        number lens_up_x, lens_up_y, lens_up_z;                                                    \
+        number focus;                                                                              \
+        int width, height;                                                                         \
+    }
+#ifdef __OPENCL_C_VERSION__
+#if RT_ACCURACY == RT_DOUBLE
+typedef struct rt_frame RT_FRAME(double) rt_frame;
+#else
+typedef struct rt_frame RT_FRAME(float) rt_frame;
+#endif
+#else
+typedef struct rt_frame RT_FRAME(float) rt_frame;
+typedef struct rt_frame_double RT_FRAME(double) rt_frame_double;
+#endif
 
 /* The part of the picture that one round of launches computes, in pixels; row 0 is the top. */
 typedef struct rt_tile {

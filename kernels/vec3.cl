@@ -10,7 +10,7 @@ typedef struct vec3 {
 #if RT_LANES == 1
 #define DIVIDE_1(a, b) DIVIDE(a, b)
 #define ROOT_1(a) ROOT(a)
-#elif RT_ROUNDING == 0
+#elif RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE
 #define DIVIDE_1(a, b) ((a) / (b))
 #define ROOT_1(a) sqrt(a)
 #elif RT_ROUNDING == 1
@@ -40,12 +40,17 @@ typedef struct vec3 {
 
 /* The power of two that brings the largest component of `v` to [1, 2), so that squares and products
  * of components neither overflow nor vanish; multiplying by it is exact. For vectors whose largest
- * component is zero, denormal or above 2^126 it is some finite power of two. */
+ * component is zero, denormal or nearly infinite it is some finite power of two. */
 INLINE number moderating_factor(vec3 v)
 {
     const number largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+#if RT_ACCURACY == RT_DOUBLE
+    const long exponent = as_long(largest) & 0x7ff0000000000000L;
+    return as_double(0x7fe0000000000000L - min(exponent, 0x7fd0000000000000L));
+#else
     const int exponent = as_int(largest) & 0x7f800000;
     return as_float(0x7f000000 - min(exponent, 0x7e800000));
+#endif
 }
 
 /* Makes a vector unit, whatever its length; NaN for the zero vector. */

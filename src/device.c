@@ -40,6 +40,9 @@ static bool describe(rt_device *d, rt_status *status)
         !RT_CL(clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_FLOAT,
                                sizeof d->native_float_width, &d->native_float_width, NULL),
                status) ||
+        !RT_CL(clGetDeviceInfo(d->id, CL_DEVICE_NATIVE_VECTOR_WIDTH_DOUBLE,
+                               sizeof d->native_double_width, &d->native_double_width, NULL),
+               status) ||
         !RT_CL(clGetDeviceInfo(d->id, CL_DEVICE_SINGLE_FP_CONFIG, sizeof single, &single, NULL),
                status))
         return false;
@@ -290,11 +293,24 @@ const char *rt_device_type_name(const rt_device *device)
     return device->type & CL_DEVICE_TYPE_ACCELERATOR ? "accelerator" : "other";
 }
 
-int rt_device_lanes(const rt_device *device)
+bool rt_device_check_level(const rt_device *device, enum rt_accuracy level, rt_status *status)
+{
+    if (level != RT_ACCURACY_DOUBLE || device->has_fp64)
+        return true;
+    return rt_status_fail(status, RT_ERROR_DEVICE,
+                          "rt: %s has no double precision (fp64); its levels of accuracy are %s, "
+                          "%s and %s",
+                          device->name, rt_accuracy_name(RT_ACCURACY_FAST),
+                          rt_accuracy_name(RT_ACCURACY_STANDARD),
+                          rt_accuracy_name(RT_ACCURACY_ROBUST));
+}
+
+int rt_device_lanes(const rt_device *device, enum rt_accuracy level)
 {
     if (device->type & CL_DEVICE_TYPE_GPU)
         return 1;
-    const cl_uint width = device->native_float_width;
+    const cl_uint width =
+        level == RT_ACCURACY_DOUBLE ? device->native_double_width : device->native_float_width;
     return width >= 16 ? 16 : width >= 8 ? 8 : width >= 4 ? 4 : 1;
 }
 

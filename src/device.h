@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "cl.h"
+#include "accuracy.h"
 #include "status.h"
 
 #define RT_DEVICE_TEXT 128
@@ -23,7 +24,8 @@ typedef struct rt_device {
     char version[RT_DEVICE_TEXT]; /* "OpenCL 3.0 ..." */
     char driver[RT_DEVICE_TEXT];
     cl_uint compute_units;
-    cl_uint native_float_width; /* 0 where the device does not tell */
+    cl_uint native_float_width;  /* 0 where the device does not tell */
+    cl_uint native_double_width; /* 0 without fp64 too */
     bool has_fp64;
     bool rounds_divide_sqrt; /* correctly rounded fp32 division and square root on request */
 } rt_device;
@@ -69,9 +71,13 @@ size_t rt_device_choose_list(const rt_device_list *list, const char *selectors,
 /* "CPU", "GPU", "accelerator" or "other". */
 const char *rt_device_type_name(const rt_device *device);
 
-/* The lane width that suits the device: its native float width on anything but a GPU, rounded down
- * to 1, 4, 8 or 16. */
-int rt_device_lanes(const rt_device *device);
+/* The lane width that suits the device at a level: its native width of float, or of double at the
+ * level double, on anything but a GPU, rounded down to 1, 4, 8 or 16. */
+int rt_device_lanes(const rt_device *device, enum rt_accuracy level);
+
+/* Whether the device can compute at a level: double asks for fp64. Where it cannot, fails with
+ * RT_ERROR_DEVICE and a message that says which levels it has. */
+bool rt_device_check_level(const rt_device *device, enum rt_accuracy level, rt_status *status);
 
 /* The table of `--list-devices`. */
 void rt_device_list_print(const rt_device_list *list, FILE *out);

@@ -186,11 +186,15 @@ static int push_flags(arguments *a, const rt_scene *scene)
 static void camera_arguments(arguments *a, rt_renderer *r, const rt_scene *scene)
 {
     const rt_frame frame = rt_scene_frame(scene);
+    const rt_frame_double frame_double = rt_scene_frame_double(scene);
     const cl_int samples = r->samples;
     const bool next = rt_renderer_has_next(r);
     const bool antialias = rt_renderer_has(r, RT_EFFECT_ANTIALIASING);
     const bool random = antialias || rt_renderer_has(r, RT_EFFECT_DEPTH_OF_FIELD);
-    PUSH(a, frame);
+    if (scene->accuracy == RT_ACCURACY_DOUBLE)
+        PUSH(a, frame_double);
+    else
+        PUSH(a, frame);
     r->changing[RT_STAGE_CAMERA].tile = PUSH(a, no_tile);
     PUSH(a, r->stride);
     PUSH_BUFFERS(a, r, BUFFER_RAYS);

@@ -37,6 +37,8 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
                                                 (cl_context_properties)device->platform, 0};
     cl_int error = CL_SUCCESS;
     double start = rt_clock_seconds();
+    if (!rt_device_check_level(device, scene->accuracy, status))
+        return false;
     r->context = clCreateContext(properties, 1, &device->id, NULL, NULL, &error);
     if (!RT_CL_MADE(error, "clCreateContext", status))
         return false;
@@ -74,11 +76,11 @@ static bool remember(rt_renderer *r, const rt_scene *scene, const rt_effects *gi
     r->samples = scene->samples;
     r->depth = scene->depth;
     r->occlusion_samples = scene->occlusion_samples;
-    r->number_size = sizeof(float);
+    r->number_size = scene->accuracy == RT_ACCURACY_DOUBLE ? sizeof(double) : sizeof(float);
     r->light_count = (int)scene->light_count;
     r->lights = calloc(scene->light_count + 1, sizeof *r->lights);
     r->counts = malloc((RT_COUNT_COMPONENTS + 1) * blocks * sizeof *r->counts);
-    r->staging = malloc((size_t)r->stride * sizeof *r->staging);
+    r->staging = malloc((size_t)r->stride * r->number_size);
     if (!r->lights || !r->counts || !r->staging)
         return rt_status_no_memory(status, "the renderer");
     for (size_t i = 0; i < scene->light_count; ++i)
@@ -94,7 +96,7 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
         rt_status_no_memory(status, "the renderer");
         return NULL;
     }
-    r->lanes = options->lanes ? options->lanes : rt_device_lanes(device);
+    r->lanes = options->lanes ? options->lanes : rt_device_lanes(device, scene->accuracy);
     r->packet = options->packet ? options->packet : r->lanes == 1 ? 1 : RT_BLOCK_RAYS;
     r->tile_side = options->tile ? options->tile : RT_TILE_DEFAULT;
     r->with_hits = options->with_hits;

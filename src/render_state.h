@@ -69,7 +69,7 @@ struct rt_renderer {
     int tile_side, lanes, packet;
     int width, height;
     bool with_hits, with_occlusion;
-    float *staging; /* owned: stride values, for rt_renderer_trace */
+    void *staging;  /* owned: stride numbers, for rt_renderer_trace */
     cl_int *counts; /* owned: RT_COUNT_COMPONENTS a block, and the blocks' first rays after them */
     flight flights[TILES_IN_FLIGHT];
     rt_render_times times;

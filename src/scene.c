@@ -250,30 +250,31 @@ rt_gradient rt_scene_gradient(const rt_scene *scene)
                          (float)up[2]};
 }
 
+/* Both kinds of frame have the same fields. */
+#define FRAME(type, number, v, scene)                                                              \
+    (type)                                                                                         \
+    {                                                                                              \
+        .ox = (number)(v).origin[0], .oy = (number)(v).origin[1], .oz = (number)(v).origin[2],     \
+        .right_x = (number)(v).right[0], .right_y = (number)(v).right[1],                          \
+        .right_z = (number)(v).right[2], .up_x = (number)(v).up[0], .up_y = (number)(v).up[1],     \
+        .up_z = (number)(v).up[2], .forward_x = (number)(v).forward[0],                            \
+        .forward_y = (number)(v).forward[1], .forward_z = (number)(v).forward[2],                  \
+        .lens_right_x = (number)(v).lens_right[0], .lens_right_y = (number)(v).lens_right[1],      \
+        .lens_right_z = (number)(v).lens_right[2], .lens_up_x = (number)(v).lens_up[0],            \
+        .lens_up_y = (number)(v).lens_up[1], .lens_up_z = (number)(v).lens_up[2],                  \
+        .focus = (number)(v).focus, .width = (scene)->width, .height = (scene)->height             \
+    }
+
 rt_frame rt_scene_frame(const rt_scene *scene)
 {
     const rt_view view = rt_scene_view(scene);
-    return (rt_frame){.ox = (float)view.origin[0],
-                      .oy = (float)view.origin[1],
-                      .oz = (float)view.origin[2],
-                      .right_x = (float)view.right[0],
-                      .right_y = (float)view.right[1],
-                      .right_z = (float)view.right[2],
-                      .up_x = (float)view.up[0],
-                      .up_y = (float)view.up[1],
-                      .up_z = (float)view.up[2],
-                      .forward_x = (float)view.forward[0],
-                      .forward_y = (float)view.forward[1],
-                      .forward_z = (float)view.forward[2],
-                      .lens_right_x = (float)view.lens_right[0],
-                      .lens_right_y = (float)view.lens_right[1],
-                      .lens_right_z = (float)view.lens_right[2],
-                      .lens_up_x = (float)view.lens_up[0],
-                      .lens_up_y = (float)view.lens_up[1],
-                      .lens_up_z = (float)view.lens_up[2],
-                      .focus = (float)view.focus,
-                      .width = scene->width,
-                      .height = scene->height};
+    return FRAME(rt_frame, float, view, scene);
+}
+
+rt_frame_double rt_scene_frame_double(const rt_scene *scene)
+{
+    const rt_view view = rt_scene_view(scene);
+    return FRAME(rt_frame_double, double, view, scene);
 }
 
 bool rt_triangle_is_degenerate(const rt_triangle *t)

@@ -141,6 +141,8 @@ rt_gradient rt_scene_gradient(const rt_scene *scene);
 
 /* The view rounded to what the kernels and the float reference take. */
 rt_frame rt_scene_frame(const rt_scene *scene);
+/* The same in double, for the kernels that compute in it. */
+rt_frame_double rt_scene_frame_double(const rt_scene *scene);
 
 /* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
  * has no area. */

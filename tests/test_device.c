@@ -20,7 +20,9 @@ static rt_device made_up[] = {
      .type = CL_DEVICE_TYPE_CPU,
      .name = "Xeon",
      .platform_name = "PoCL",
-     .native_float_width = 16},
+     .native_float_width = 16,
+     .native_double_width = 8,
+     .has_fp64 = true},
     {.index = 2,
      .platform_index = 1,
      .device_index = 1,
@@ -148,13 +150,30 @@ static void an_unknown_device_lists_what_there_is(void **state)
 static void lanes_follow_the_native_width(void **state)
 {
     (void)state;
-    assert_int_equal(rt_device_lanes(&made_up[0]), 1);
-    assert_int_equal(rt_device_lanes(&made_up[1]), 16);
-    assert_int_equal(rt_device_lanes(&made_up[2]), 4);
-    assert_int_equal(rt_device_lanes(&made_up[3]), 1);
+    assert_int_equal(rt_device_lanes(&made_up[0], RT_ACCURACY_ROBUST), 1);
+    assert_int_equal(rt_device_lanes(&made_up[1], RT_ACCURACY_ROBUST), 16);
+    assert_int_equal(rt_device_lanes(&made_up[2], RT_ACCURACY_ROBUST), 4);
+    assert_int_equal(rt_device_lanes(&made_up[3], RT_ACCURACY_ROBUST), 1);
+    assert_int_equal(rt_device_lanes(&made_up[1], RT_ACCURACY_DOUBLE), 8);
     rt_device wide_gpu = made_up[3];
     wide_gpu.native_float_width = 8;
-    assert_int_equal(rt_device_lanes(&wide_gpu), 1);
+    assert_int_equal(rt_device_lanes(&wide_gpu, RT_ACCURACY_ROBUST), 1);
+}
+
+static void double_asks_for_fp64(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    for (int level = 0; level < RT_ACCURACY_COUNT; ++level) {
+        assert_true(rt_device_check_level(&made_up[1], (enum rt_accuracy)level, &status));
+        const bool expected = level != RT_ACCURACY_DOUBLE;
+        assert_int_equal(rt_device_check_level(&made_up[2], (enum rt_accuracy)level, &status),
+                         expected);
+    }
+    assert_int_equal(status.code, RT_ERROR_DEVICE);
+    assert_string_equal(status.text, "rt: Atom 1000 has no double precision (fp64); its levels of "
+                                     "accuracy are fast, standard and robust\n");
+    rt_status_clear(&status);
 }
 
 static void the_real_list(void **state)
@@ -186,6 +205,7 @@ int main(void)
         cmocka_unit_test(no_device_names_the_way_out),
         cmocka_unit_test(an_unknown_device_lists_what_there_is),
         cmocka_unit_test(lanes_follow_the_native_width),
+        cmocka_unit_test(double_asks_for_fp64),
         cmocka_unit_test(the_real_list),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
