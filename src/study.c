@@ -83,6 +83,13 @@ typedef struct taken {
     size_t rays;
 } taken;
 
+/* Of every kind. */
+static size_t rays_of(const rt_render_times *times)
+{
+    return times->primary_rays + times->shadow_rays + times->occlusion_rays +
+           times->reflection_rays + times->refraction_rays;
+}
+
 static double stages_of(const rt_render_times *times)
 {
     double sum = 0.0;
@@ -102,7 +109,7 @@ static bool draw(study_state *s, rt_renderer *renderer, rt_image *image, const r
     t->wall = rt_clock_seconds() - start;
     t->kernel = stages_of(after) - stages_of(&before);
     t->readback = after->readback - before.readback;
-    t->rays = after->primary_rays - before.primary_rays;
+    t->rays = rays_of(after) - rays_of(&before);
     if (!(t->kernel > 0.0))
         s->study->kernel_is_wall = true;
     if (s->study->kernel_is_wall)
@@ -110,9 +117,14 @@ static bool draw(study_state *s, rt_renderer *renderer, rt_image *image, const r
     return true;
 }
 
-/* Times of one count of samples: `repeats` a level. */
+/* A repeat is as many pictures as take this long together: what takes a few milliseconds alone is
+ * at the mercy of every other process. */
+#define REPEAT_SECONDS 0.025
+#define REPEAT_PICTURES_MOST 16
+
+/* Times of one count of samples: `repeats` a level, of so many pictures each. */
 typedef struct timings {
-    size_t repeats;
+    size_t repeats, pictures;
     double *kernel, *readback, *wall, *ratio; /* owned, all in `kernel`'s block */
 } timings;
 
@@ -139,13 +151,16 @@ static bool repeat(study_state *s, rt_renderer *const *renderers, rt_image *imag
         for (size_t i = 0; i < levels; ++i) {
             const size_t level = round % 2 ? levels - 1 - i : i;
             const size_t at = level * t->repeats + round;
-            taken one;
-            if (!rt_study_tick(s, (double)(round * levels + i) / (double)(t->repeats * levels)) ||
-                !draw(s, renderers[level], image, NULL, &one))
-                return false;
-            t->kernel[at] = one.kernel;
-            t->readback[at] = one.readback;
-            t->wall[at] = one.wall;
+            for (size_t k = 0; k < t->pictures; ++k) {
+                taken one;
+                if (!rt_study_tick(s,
+                                   (double)(round * levels + i) / (double)(t->repeats * levels)) ||
+                    !draw(s, renderers[level], image, NULL, &one))
+                    return false;
+                t->kernel[at] += one.kernel / (double)t->pictures;
+                t->readback[at] += one.readback / (double)t->pictures;
+                t->wall[at] += one.wall / (double)t->pictures;
+            }
         }
     return true;
 }
@@ -200,7 +215,7 @@ static bool make_pictures(study_state *s, pictures *p)
 
 /* The untimed first pictures of a count of samples, and what is wrong with them. */
 static bool compare(study_state *s, rt_renderer *const *renderers, pictures *p,
-                    rt_study_cell *cells)
+                    rt_study_cell *cells, timings *t)
 {
     rt_study *study = s->study;
     const size_t base = base_index(study);
@@ -212,6 +227,10 @@ static bool compare(study_state *s, rt_renderer *const *renderers, pictures *p,
         taken one;
         if (!draw(s, renderers[i], image, &watch, &one))
             return false;
+        if (i == base)
+            t->pictures = one.kernel * REPEAT_PICTURES_MOST > REPEAT_SECONDS
+                              ? (size_t)ceil(REPEAT_SECONDS / one.kernel)
+                              : REPEAT_PICTURES_MOST;
         cells[i].rays = one.rays;
         cells[i].arithmetic = rt_study_error_of(image, &p->reference);
         cells[i].seen = rt_study_error_of(image, &p->converged);
@@ -241,7 +260,7 @@ static bool measure_samples(study_state *s, size_t sample_index, pictures *p, do
         cells[i].program = rt_renderer_times(renderers[i])->program;
         cells[i].upload = rt_renderer_times(renderers[i])->upload;
     }
-    good = good && compare(s, renderers, p, cells) && make_timings(s, &t) &&
+    good = good && compare(s, renderers, p, cells, &t) && make_timings(s, &t) &&
            repeat(s, renderers, &p->level, &t, seconds * study->plan.repeats);
     if (good)
         summarise(study, &t, cells);

@@ -223,7 +223,8 @@ static void print_notes(const rt_study *study, FILE *out)
     fprintf(out, "- Pixels that are not finite: %zu.\n", non_finite(study));
     fprintf(out,
             "- Times: %d repeats after one that is not timed, level by level there and back; "
-            "medians, and quartiles where two numbers stand. Ratios are taken round by round; "
+            "medians, and quartiles where two numbers stand; pictures of less than 25 ms are "
+            "rendered several times a repeat. Ratios are taken round by round; "
             "where the quartiles of a ratio have 1 between them, there is no measurable "
             "cost.%s Building the program counts what the driver had to do: less where it "
             "keeps programs from earlier runs.\n",

@@ -68,13 +68,25 @@ static void say_how_much(const rt_study *study, size_t level_index, FILE *out)
         cell->arithmetic.over_1, rt_accuracy_name(cell->level));
 }
 
-/* Whether all counts from `from` up to `to` are alike. */
-static bool all_are(const rt_study *study, size_t level_index, size_t from, size_t to, bool seen)
+/* At which counts a level can be seen: none, all, those from `turn` on, those before it, or some
+ * other set. */
+enum pattern { SEEN_NEVER, SEEN_ALWAYS, SEEN_FROM, SEEN_BELOW, SEEN_HERE_AND_THERE };
+
+static enum pattern pattern_of(const rt_study *study, size_t level_index, size_t *turn)
 {
-    for (size_t i = from; i < to; ++i)
-        if (rt_study_can_be_seen(study, i, level_index) != seen)
-            return false;
-    return true;
+    const size_t count = study->plan.sample_count;
+    const bool first = rt_study_can_be_seen(study, 0, level_index);
+    size_t i = 1;
+    while (i < count && rt_study_can_be_seen(study, i, level_index) == first)
+        ++i;
+    *turn = i;
+    if (i == count)
+        return first ? SEEN_ALWAYS : SEEN_NEVER;
+    while (i < count && rt_study_can_be_seen(study, i, level_index) != first)
+        ++i;
+    if (i < count)
+        return SEEN_HERE_AND_THERE;
+    return first ? SEEN_BELOW : SEEN_FROM;
 }
 
 static void say_what_it_buys(const rt_study *study, size_t level_index, FILE *out)
@@ -82,38 +94,40 @@ static void say_what_it_buys(const rt_study *study, size_t level_index, FILE *ou
     const char *name = rt_accuracy_name(study->levels[level_index].level);
     const int *samples = study->plan.samples;
     const size_t count = study->plan.sample_count;
-    size_t turn = 1; /* the first count that is unlike the one before */
-    while (turn < count && rt_study_can_be_seen(study, turn, level_index) ==
-                               rt_study_can_be_seen(study, 0, level_index))
-        ++turn;
-    const bool seen = rt_study_can_be_seen(study, 0, level_index);
-    if (turn == count && !seen) {
-        fprintf(out, "%s %d sample%s a pixel, %s changes nothing that you can see on this scene.",
+    size_t turn = 0;
+    const enum pattern pattern = pattern_of(study, level_index, &turn);
+    switch (pattern) {
+    case SEEN_NEVER:
+        fprintf(out, "%s %d sample%s a pixel, %s changes nothing that you can see on this scene",
                 count > 1 ? "Up to" : "At", samples[count - 1], samples[count - 1] > 1 ? "s" : "",
                 name);
-        return;
-    }
-    if (turn == count)
+        break;
+    case SEEN_ALWAYS:
         fprintf(out, "At every count of samples, %s changes what you see on this scene", name);
-    else if (!seen && all_are(study, level_index, turn, count, true))
+        break;
+    case SEEN_FROM:
         fprintf(out,
                 "Below %d samples a pixel, %s changes nothing that you can see on this scene; from "
                 "%d on it does",
                 samples[turn], name, samples[turn]);
-    else if (seen && all_are(study, level_index, turn, count, false))
+        break;
+    case SEEN_BELOW:
         fprintf(out,
                 "From %d samples a pixel on, %s changes nothing that you can see on this scene; "
                 "below it does",
                 samples[turn], name);
-    else {
-        fprintf(out, "At ");
+        break;
+    case SEEN_HERE_AND_THERE:
+        fputs("At ", out);
         list_counts(study, level_index, false, out);
         fprintf(out, " samples a pixel, %s changes nothing that you can see on this scene; at ",
                 name);
         list_counts(study, level_index, true, out);
-        fprintf(out, " it does");
+        fputs(" it does", out);
+        break;
     }
-    say_how_much(study, level_index, out);
+    if (pattern != SEEN_NEVER)
+        say_how_much(study, level_index, out);
     fputc('.', out);
 }
 
@@ -134,10 +148,48 @@ static void say_what_it_costs(const rt_study *study, size_t level_index, FILE *o
                 base, r->low, r->high);
 }
 
+void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out)
+{
+    const int *samples = study->plan.samples;
+    const size_t last = study->plan.sample_count - 1;
+    const rt_spread *r = &rt_study_cell_at(study, last, level_index)->ratio;
+    const char *base = rt_accuracy_name(study->base);
+    size_t turn = 0;
+    fprintf(out, "%s: ", rt_accuracy_name(study->levels[level_index].level));
+    if (study->levels[level_index].level == study->base) {
+        fputs("what the others are held against", out);
+        return;
+    }
+    switch (pattern_of(study, level_index, &turn)) {
+    case SEEN_NEVER:
+        fprintf(out, "changes nothing that you can see up to %d samples", samples[last]);
+        break;
+    case SEEN_ALWAYS:
+        fputs("changes what you see at every count of samples", out);
+        break;
+    case SEEN_FROM:
+        fprintf(out, "changes what you see from %d samples on", samples[turn]);
+        break;
+    case SEEN_BELOW:
+        fprintf(out, "changes what you see below %d samples", samples[turn]);
+        break;
+    case SEEN_HERE_AND_THERE:
+        fputs("changes what you see at ", out);
+        list_counts(study, level_index, true, out);
+        fputs(" samples", out);
+        break;
+    }
+    if (rt_study_is_free(r))
+        fputs("; no measurable cost", out);
+    else
+        fprintf(out, "; %.2f times the time of %s", r->median, base);
+}
+
 static bool levels_agree(const rt_study *study)
 {
+    size_t turn = 0;
     for (size_t i = 0; i < study->level_count; ++i)
-        if (!all_are(study, i, 0, study->plan.sample_count, false))
+        if (pattern_of(study, i, &turn) != SEEN_NEVER)
             return false;
     return true;
 }

@@ -2,6 +2,8 @@
 #ifndef RT_STUDY_VERDICT_H
 #define RT_STUDY_VERDICT_H
 
+#include <stdio.h>
+
 #include "study.h"
 
 /* Whether the level changes something that one can see at that count: it changes pixels by more
@@ -15,5 +17,8 @@ bool rt_study_is_free(const rt_spread *ratio);
 /* What to take away, a sentence or two a paragraph, with an empty line between paragraphs; the
  * caller frees it. NULL without memory. */
 char *rt_study_verdict(const rt_study *study);
+
+/* The same of one level in a few words, for the key of the plot. */
+void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out);
 
 #endif
