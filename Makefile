@@ -86,6 +86,15 @@ test: deps
 check: rt $(TESTS)
 	@RT=./rt tests/run $(TESTS)
 
+# The hard cases with ten times the rays: minutes.
+.PHONY: test-hard check-hard
+test-hard: deps
+	@$(MAKE) --no-print-directory check-hard
+
+check-hard: rt $(filter $(BUILD)/test_hard_%,$(TESTS))
+	@RT=./rt RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} RT_HARD_TABLE=$(BUILD)/hard.md \
+	    tests/run $(filter $(BUILD)/test_hard_%,$(TESTS))
+
 $(BUILD)/tests_%.o: tests/%.c | $(BUILD)
 	$(call say,CC)
 	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc -c -o $@ $<

@@ -1,0 +1,181 @@
+#include "hard.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RAYS_DEFAULT 1000000
+/* Naive variants hold every ray against every primitive, in plain C. */
+#define RAYS_NAIVE 20000
+
+size_t hard_rays(const hard_way *way)
+{
+    const char *text = getenv("RT_HARD_RAYS");
+    const double wanted = text && *text ? atof(text) : RAYS_DEFAULT;
+    const size_t all = wanted >= 1.0 ? (size_t)wanted : RAYS_DEFAULT;
+    if (way->naive)
+        return all < RAYS_NAIVE ? all : RAYS_NAIVE;
+    return way->level >= RT_ACCURACY_ROBUST || all < 10 ? all : all / 10;
+}
+
+double hard_per_million(size_t events, size_t of)
+{
+    return of ? 1e6 * (double)events / (double)of : NAN;
+}
+
+static bool is_there(enum rt_accuracy level)
+{
+    return level != RT_ACCURACY_DOUBLE || test_device()->has_fp64;
+}
+
+/* The last level whose promises are held against it. */
+#define LEVEL_HELD RT_ACCURACY_STANDARD
+
+/* Written so that NaN is out. */
+static bool is_lawful(double figure, double gate)
+{
+    return gate == HARD_REPORT ? !isnan(figure) : figure <= gate;
+}
+
+static size_t figure_count(const hard_case *c)
+{
+    size_t count = 0;
+    while (count < HARD_FIGURES && c->figures[count].what)
+        ++count;
+    return count;
+}
+
+static void print_cell(double figure, double gate)
+{
+    char text[64];
+    if (isnan(figure))
+        snprintf(text, sizeof text, "nothing");
+    else
+        snprintf(text, sizeof text, "%.3g", figure);
+    if (gate == HARD_REPORT)
+        printf(" %s |", text);
+    else if (is_lawful(figure, gate))
+        printf(" %s (<= %.3g) |", text, gate);
+    else
+        printf(" **%s, not <= %.3g** |", text, gate);
+}
+
+/* The variants that break what robust promises: all must, each by one of the figures. */
+static bool hold_naives(const hard_case *c, size_t figures, char cells[][256])
+{
+    bool good = true;
+    for (size_t f = 0; f < figures; ++f)
+        cells[f][0] = 0;
+    for (int n = 0; n < HARD_NAIVES && c->naives[n]; ++n) {
+        const hard_way way = {c->naives[n]->name, RT_ACCURACY_STANDARD, c->naives[n], true};
+        double values[HARD_FIGURES] = {0.0};
+        bool is_caught = false;
+        c->measure(&way, c->of, values);
+        for (size_t f = 0; f < figures; ++f) {
+            const size_t used = strlen(cells[f]);
+            const double gate = c->figures[f].gates[RT_ACCURACY_ROBUST];
+            is_caught = is_caught || (gate != HARD_REPORT && !is_lawful(values[f], gate));
+            snprintf(cells[f] + used, 256 - used, "%s%s %.3g", n ? ", " : "", c->naives[n]->name,
+                     values[f]);
+        }
+        if (!is_caught)
+            print_error("row %d, %s: lets %s pass\n", c->row, c->name, c->naives[n]->name);
+        good = good && is_caught;
+    }
+    return good;
+}
+
+static int broken;
+
+void hard_hold(const hard_case *c)
+{
+    const size_t figures = figure_count(c);
+    double values[RT_ACCURACY_COUNT][HARD_FIGURES] = {{0.0}};
+    char naive[HARD_FIGURES][256];
+    bool good = true;
+    for (int level = 0; level < RT_ACCURACY_COUNT; ++level) {
+        const hard_way way = {rt_accuracy_name((enum rt_accuracy)level), (enum rt_accuracy)level,
+                              NULL, c->by_brute_force};
+        if (is_there(way.level))
+            c->measure(&way, c->of, values[level]);
+    }
+    good = hold_naives(c, figures, naive);
+    for (size_t f = 0; f < figures; ++f) {
+        const hard_figure *figure = &c->figures[f];
+        bool holds = true;
+        printf("| %d | %s: %s | %s |", c->row, c->name, figure->what, naive[f][0] ? naive[f] : "-");
+        for (int level = 0; level < RT_ACCURACY_COUNT; ++level) {
+            if (!is_there((enum rt_accuracy)level)) {
+                printf(" no fp64 |");
+                continue;
+            }
+            const double gate = level <= LEVEL_HELD ? figure->gates[level] : HARD_REPORT;
+            print_cell(values[level][f], gate);
+            holds = holds && is_lawful(values[level][f], gate);
+        }
+        printf(" %s |\n", holds ? "yes" : "**no**");
+        good = good && holds;
+    }
+    fflush(stdout);
+    broken += !good;
+}
+
+void hard_finish(void)
+{
+    const int count = broken;
+    broken = 0;
+    if (count > 0)
+        fail_msg("%d cases do not hold", count);
+}
+
+void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene)
+{
+    scene->accuracy = way->level;
+    *tracer = (hard_tracer){scene, way->naive, NULL};
+    if (way->naive)
+        return;
+    const rt_render_options options = {0};
+    test_use_tree(!way->by_brute_force);
+    tracer->renderer = test_renderer(scene, &options);
+    test_use_tree(true);
+}
+
+void hard_trace(hard_tracer *tracer, const rt_ray *rays, size_t count, rt_hit *hits)
+{
+    rt_status status = RT_STATUS_INIT;
+    if (tracer->naive)
+        tracer->naive->trace(tracer->scene, rays, count, hits);
+    else
+        assert_good(rt_renderer_trace(tracer->renderer, rays, count, hits, &status), &status);
+}
+
+void hard_close(hard_tracer *tracer)
+{
+    rt_renderer_free(tracer->renderer);
+    *tracer = (hard_tracer){NULL, NULL, NULL};
+}
+
+void hard_scene(rt_scene *scene)
+{
+    const float grey[3] = {0.5f, 0.5f, 0.5f}, zero[3] = {0.0f, 0.0f, 0.0f};
+    const rt_material material = rt_material_make(grey, grey, zero, 1.0f);
+    rt_status status = RT_STATUS_INIT;
+    rt_scene_init(scene);
+    assert_good(rt_scene_add_material(scene, &material, &status), &status);
+}
+
+void hard_add_triangle(rt_scene *scene, const float corners[9])
+{
+    rt_triangle triangle;
+    rt_status status = RT_STATUS_INIT;
+    memcpy(&triangle, corners, sizeof triangle);
+    assert_good(rt_scene_add_triangle(scene, &triangle, NULL, 0, &status), &status);
+}
+
+void hard_add_sphere(rt_scene *scene, float x, float y, float z, float radius)
+{
+    const rt_sphere sphere = {x, y, z, radius};
+    rt_status status = RT_STATUS_INIT;
+    assert_good(rt_scene_add_sphere(scene, &sphere, 0, &status), &status);
+}
