@@ -11,12 +11,12 @@ static bool is_odd_cell(vec point, real size)
     return cell - 2 * FLOOR(cell * half) != 0;
 }
 
-/* Pictures repeat; row 0 is the top. */
+/* The texel of a column from the left and a row from below; pictures repeat. */
 static vec texel(const rt_scene *scene, const rt_texture *t, real column, real row)
 {
     const real width = (real)t->width, height = (real)t->height;
-    const size_t x = (size_t)FMIN(column - width * FLOOR(column / width), width - 1);
-    const size_t y = (size_t)FMIN(row - height * FLOOR(row / height), height - 1);
+    const size_t x = (size_t)(column - width * FLOOR(column / width));
+    const size_t y = (size_t)(t->height - 1) - (size_t)(row - height * FLOOR(row / height));
     const uint32_t bits = scene->texels[(size_t)t->first + y * (size_t)t->width + x];
     return (vec){(real)(bits & 255) / 255, (real)(bits >> 8 & 255) / 255,
                  (real)(bits >> 16 & 255) / 255};
@@ -27,20 +27,21 @@ static vec mixed(vec a, vec b, real part)
     return add_scaled(minus(b, a), part, a);
 }
 
-/* Texel (i, j) has its centre at column i + 1/2, row j + 1/2. */
+/* Texel (i, j) has its centre at (i + 1/2, j + 1/2) from the lower left. */
 static vec picture(const rt_scene *scene, const rt_material *m, real u, real v)
 {
     const rt_texture *t = &scene->textures[m->texture];
-    const real column = (u - FLOOR(u)) * (real)t->width;
-    const real row = (1 - (v - FLOOR(v))) * (real)t->height;
+    const real across = (u - FLOOR(u)) * (real)t->width;
+    const real up = (v - FLOOR(v)) * (real)t->height;
     if (m->nearest)
-        return texel(scene, t, FLOOR(column), FLOOR(row));
-    const real left = FLOOR(column - (real)0.5), above = FLOOR(row - (real)0.5);
-    const real across = column - (real)0.5 - left, down = row - (real)0.5 - above;
-    const vec upper = mixed(texel(scene, t, left, above), texel(scene, t, left + 1, above), across);
-    const vec lower =
-        mixed(texel(scene, t, left, above + 1), texel(scene, t, left + 1, above + 1), across);
-    return mixed(upper, lower, down);
+        return texel(scene, t, FLOOR(across), FLOOR(up));
+    const real half = (real)0.5;
+    const real left = FLOOR(across - half), low = FLOOR(up - half);
+    const real to_right = across - half - left, to_top = up - half - low;
+    const vec below = mixed(texel(scene, t, left, low), texel(scene, t, left + 1, low), to_right);
+    const vec above =
+        mixed(texel(scene, t, left, low + 1), texel(scene, t, left + 1, low + 1), to_right);
+    return mixed(below, above, to_top);
 }
 
 vec NAME(pattern)(const rt_scene *scene, const surface *s)

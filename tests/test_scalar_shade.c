@@ -306,6 +306,7 @@ static void pictures_stand_upright_and_repeat(void **state)
             assert_color(picture_at(&m, nearest, middle, 0.75), 0, 1, 0, 1e-12);
             assert_color(picture_at(&m, nearest, right, 0.75), 0, 0, 1, 1e-12);
         }
+    assert_color(picture_at(&m, true, 0, 0), 0, 0, 0, 0);
     assert_color(picture_at(&m, true, 0.01, 0.01), 0, 0, 0, 0);
     assert_color(picture_at(&m, true, 0.32, 0.49), 0, 0, 0, 0);
     assert_color(picture_at(&m, true, 0.34, 0.51), 0, 1, 0, 0);
