@@ -130,7 +130,8 @@ INLINE int send_mirrored(vec3 d, const surface *s, number part, const next_ray *
     if (!(r->weight >= (number)RT_WEIGHT_LEAST))
         return 0;
     mirror_image(d, s, &r->direction);
-    leave(s, r->direction, &r->origin);
+    /* Not by the direction: at a tangent its sign is rounding's. */
+    leave(s, s->facing, &r->origin);
     return 1;
 }
 
@@ -153,7 +154,7 @@ INLINE int send_refracted(vec3 d, const surface *s, const rt_material m, int mat
     r->is_refracted = 1;
     if (!through || !(r->weight >= (number)RT_WEIGHT_LEAST))
         return 0;
-    leave(s, r->direction, &r->origin);
+    leave(s, SCALE(s->facing, (number)-1.0f), &r->origin);
     return 1;
 }
 #endif

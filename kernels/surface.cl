@@ -172,10 +172,10 @@ INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, sur
 }
 #endif
 
-/* Where a ray in `direction` starts: above the surface on the side that it leaves on. */
-INLINE void leave(const surface *s, vec3 direction, vec3 *origin)
+/* Where a ray starts that leaves the surface on the side that `side` points to. */
+INLINE void leave(const surface *s, vec3 side, vec3 *origin)
 {
-    const number lift = DOT(s->facing, direction) < 0.0f ? -s->lift : s->lift;
+    const number lift = DOT(s->facing, side) > 0.0f ? s->lift : -s->lift;
     *origin = (vec3){fma(lift, s->facing.x, s->start.x), fma(lift, s->facing.y, s->start.y),
                      fma(lift, s->facing.z, s->start.z)};
 }
