@@ -11,6 +11,7 @@
 #include "clock.h"
 #include "device.h"
 #include "effects.h"
+#include "explain.h"
 #include "file.h"
 #include "grammar.h"
 #include "image.h"
@@ -96,6 +97,8 @@ static bool read_scene(run *r)
     }
     if (r->options.has_accuracy)
         r->scene.accuracy = r->options.accuracy;
+    if (r->options.effects == RT_EFFECTS_NONE)
+        rt_effects_remove_all(&r->scene);
     r->stats.parse = rt_clock_seconds() - start;
     if (r->options.quiet)
         rt_status_clear(&r->status);
@@ -143,8 +146,12 @@ static bool build_tree(run *r)
 
 static bool draw_on_devices(run *r)
 {
-    const rt_render_options options = {
-        .lanes = r->options.lanes, .tile = r->options.tile, .with_hits = r->image.hits != NULL};
+    rt_effects effects = rt_effects_of(&r->scene);
+    effects.mode = r->options.effects;
+    const rt_render_options options = {.lanes = r->options.lanes,
+                                       .tile = r->options.tile,
+                                       .with_hits = r->image.hits != NULL,
+                                       .effects = &effects};
     if (!build_tree(r))
         return false;
     r->team = rt_team_new(r->chosen, r->chosen_count, &r->scene, r->bvh.nodes ? &r->bvh : NULL,
@@ -292,6 +299,33 @@ static bool study(run *r)
     return true;
 }
 
+static bool measure_effects(run *r, rt_explanation *e)
+{
+    const rt_render_options options = {.lanes = r->options.lanes, .tile = r->options.tile};
+    if (!choose_devices(r) || !build_tree(r))
+        return false;
+    begin_progress(r);
+    const bool good = rt_explain_measure(e, &r->scene, r->bvh.nodes ? &r->bvh : NULL, r->chosen[0],
+                                         &options, &r->watch, &r->status);
+    rt_progress_clear(&r->progress);
+    return good;
+}
+
+/* Tells what the scene calls for and, unless told not to, what that costs. */
+static bool explain(run *r)
+{
+    if (!read_scene(r) || !open_outputs(r))
+        return false;
+    rt_explanation e = rt_explain(&r->scene);
+    if (!r->options.no_cost && !measure_effects(r, &e))
+        return false;
+    const char *stats = r->options.stats;
+    if (!stats || strcmp(stats, "-") != 0)
+        rt_explain_print(&e, stdout);
+    return !stats || (rt_explain_write(&e, &r->stats_file, &r->status) &&
+                      rt_output_commit(&r->stats_file, &r->status));
+}
+
 static bool render(run *r)
 {
     /* A picture that differs is still written: it is what there is to look at. */
@@ -334,8 +368,10 @@ static bool act(run *r)
     catch_signals();
     r->watch = (rt_watch){keep_going, r};
     rt_scene_init(&r->scene);
-    if (r->options.target == RT_TARGET_DEVICE)
+    if (r->options.target == RT_TARGET_DEVICE && !r->options.no_cost)
         rt_device_list_begin(&r->opening);
+    if (r->options.explain)
+        return explain(r);
     return r->options.study ? study(r) : render(r);
 }
 

@@ -15,6 +15,9 @@ enum {
     OPTION_HELP = 'h',
     OPTION_ACCEL = 256,
     OPTION_ACCURACY,
+    OPTION_EFFECTS,
+    OPTION_EXPLAIN,
+    OPTION_NO_COST,
     OPTION_LIST,
     OPTION_LANES,
     OPTION_TILE,
@@ -35,11 +38,14 @@ static const struct option long_options[] = {
     {"accel", required_argument, NULL, OPTION_ACCEL},
     {"accuracy", required_argument, NULL, OPTION_ACCURACY},
     {"device", required_argument, NULL, OPTION_DEVICE},
+    {"effects", required_argument, NULL, OPTION_EFFECTS},
+    {"explain", no_argument, NULL, OPTION_EXPLAIN},
     {"grammar", no_argument, NULL, OPTION_GRAMMAR},
     {"help", no_argument, NULL, OPTION_HELP},
     {"hits", required_argument, NULL, OPTION_HITS},
     {"lanes", required_argument, NULL, OPTION_LANES},
     {"list-devices", no_argument, NULL, OPTION_LIST},
+    {"no-cost", no_argument, NULL, OPTION_NO_COST},
     {"progress", required_argument, NULL, OPTION_PROGRESS},
     {"quiet", no_argument, NULL, OPTION_QUIET},
     {"size", required_argument, NULL, OPTION_SIZE},
@@ -58,6 +64,7 @@ void rt_options_help(FILE *out)
     fputs(
         "Usage: rt [OPTION]... SCENE OUTPUT\n"
         "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
+        "       rt [OPTION]... --explain SCENE\n"
         "       rt [OPTION]... --study=REPORT SCENE\n"
         "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
         "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
@@ -72,12 +79,19 @@ void rt_options_help(FILE *out)
         "                       scalar-double; several with commas between them, or all,\n"
         "                       share the picture; by default RT_DEVICE, else the first GPU,\n"
         "                       else the first CPU\n"
+        "      --effects=WHICH  what is compiled into the kernels: scene, what the scene calls "
+        "for,\n"
+        "                       the default; all, everything, switched at run time, for the\n"
+        "                       same picture; none, Phong alone\n"
+        "      --explain        print which effects the scene calls for, by which line, and what\n"
+        "                       each costs on this device\n"
         "      --grammar        print the scene format as a table and exit\n"
         "  -h, --help           print this help and exit\n"
         "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
         "      --lanes=N        rays in a vector when tracing: 1, 4, 8 or 16; by default the\n"
         "                       device's native float width, 1 on a GPU\n"
         "      --list-devices   list the OpenCL devices and exit\n"
+        "      --no-cost        explain without measuring, and without a device\n"
         "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"
         "                       default: on a terminal), always or never\n"
         "  -q, --quiet          print errors only\n"
@@ -192,6 +206,15 @@ static bool read_option(rt_options *options, int code, const char *value, rt_sta
     case OPTION_DEVICE:
         read_device(options, value);
         return *value || fail(status, "--device", value, "the name or index of a device");
+    case OPTION_EFFECTS:
+        return rt_effects_mode_of_name(value, &options->effects) ||
+               fail(status, "--effects", value, "scene, all or none");
+    case OPTION_EXPLAIN:
+        options->explain = true;
+        return true;
+    case OPTION_NO_COST:
+        options->no_cost = true;
+        return true;
     case OPTION_LANES:
         return read_lanes(options, value, status);
     case OPTION_TILE:
@@ -283,6 +306,22 @@ static bool check_study(const rt_options *o, rt_status *status)
     return true;
 }
 
+/* --explain measures one device, and draws nothing that is kept. */
+static bool check_explain(const rt_options *o, rt_status *status)
+{
+    if (o->no_cost && !o->explain)
+        return fail_usage(status, "--no-cost is for --explain", "");
+    if (!o->explain)
+        return true;
+    if (o->output || o->verify || o->hits || o->study)
+        return fail_usage(status, "--explain renders no picture to keep, compare or study", "");
+    if (o->effects == RT_EFFECTS_ALL)
+        return fail_usage(status, "--explain is of the scene's own effects, not of all", "");
+    if (!o->no_cost && o->target != RT_TARGET_DEVICE)
+        return fail_usage(status, "--explain measures an OpenCL device, or nothing: --no-cost", "");
+    return true;
+}
+
 /* What options mean together. */
 static bool check(rt_options *o, rt_status *status)
 {
@@ -290,7 +329,9 @@ static bool check(rt_options *o, rt_status *status)
         return fail_usage(status, "no scene is given", "");
     if (!check_study(o, status))
         return false;
-    if (!o->output && !o->verify && !o->hits && !o->stats && !o->study)
+    if (!check_explain(o, status))
+        return false;
+    if (!o->output && !o->verify && !o->hits && !o->stats && !o->study && !o->explain)
         return fail_usage(status, "no output is given", "");
     if (o->quiet)
         o->progress = RT_PROGRESS_NEVER;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "accuracy.h"
+#include "effects.h"
 #include "image.h"
 #include "status.h"
 #include "study_plan.h"
@@ -42,9 +43,11 @@ typedef struct rt_options {
     int width, height;              /* 0 where the scene decides */
     int lanes, tile;                /* 0 for the default */
     enum rt_progress_when progress; /* RT_PROGRESS_NEVER with quiet */
+    enum rt_effects_mode effects;
     bool verify, quiet;
-    const char *study; /* what the names of the report begin with, or NULL */
-    bool has_plan;     /* whether an option narrows the study */
+    bool explain, no_cost; /* a table of effects in place of a picture; without measuring */
+    const char *study;     /* what the names of the report begin with, or NULL */
+    bool has_plan;         /* whether an option narrows the study */
     rt_study_plan plan;
 } rt_options;
 

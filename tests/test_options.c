@@ -83,6 +83,18 @@ static void good_lines(void **state)
     assert_int_equal(o.plan.samples[0], 1);
     assert_int_equal(o.plan.samples[1], 16);
     assert_int_equal(o.plan.repeats, 3);
+    assert_int_equal(o.effects, RT_EFFECTS_SCENE);
+    assert_false(o.explain || o.no_cost);
+    assert_int_equal(read_line("--effects none s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.effects, RT_EFFECTS_NONE);
+    assert_int_equal(read_line("--effects=all s.txt o.png", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.effects, RT_EFFECTS_ALL);
+    assert_int_equal(read_line("--explain s.txt", &o, message, sizeof message), RT_OK);
+    assert_true(o.explain && !o.no_cost && !o.output);
+    assert_int_equal(read_line("--explain --no-cost --device scalar --stats - s.txt", &o, message,
+                               sizeof message),
+                     RT_OK);
+    assert_true(o.explain && o.no_cost);
     assert_int_equal(read_line("--help", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.action, RT_ACTION_HELP);
     assert_int_equal(read_line("--version", &o, message, sizeof message), RT_OK);
@@ -127,6 +139,13 @@ static void misuse(void **state)
         {"s.txt o.png --size 10x10x", "--size takes"},
         {"s.txt o.png --size 70000x1", "--size takes"},
         {"s.txt o.png --size 65535x65535", "--size takes"},
+        {"s.txt o.png --effects some", "found 'some'; --effects takes scene, all or none"},
+        {"s.txt o.png --no-cost", "--no-cost is for --explain"},
+        {"s.txt o.png --explain", "--explain renders no picture"},
+        {"s.txt --explain --verify", "--explain renders no picture"},
+        {"s.txt --explain --hits h", "--explain renders no picture"},
+        {"s.txt --explain --effects all", "--explain is of the scene's own effects"},
+        {"s.txt --explain --device scalar", "--explain measures an OpenCL device"},
         {"s.txt o.png --lanes 3", "found '3'; --lanes takes 1, 4, 8 or 16"},
         {"s.txt o.png --lanes x", "--lanes takes"},
         {"s.txt o.png --tile 0", "--tile takes a whole number from 1 to 4096"},
