@@ -38,7 +38,10 @@ rt_watch rt_study_watch(study_state *s)
 
 bool rt_study_device_has(const rt_device *device, enum rt_accuracy level)
 {
-    return level != RT_ACCURACY_DOUBLE || device->has_fp64;
+    rt_status scratch = RT_STATUS_INIT; /* what is lacking is told in the report */
+    const bool has = rt_device_check_level(device, level, &scratch);
+    rt_status_clear(&scratch);
+    return has;
 }
 
 rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, enum rt_accuracy level,

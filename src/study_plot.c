@@ -66,7 +66,10 @@ static double error_of(const rt_study *study, enum panel_kind kind, size_t sampl
     case PANEL_SEEN:
         return cell->seen.rms;
     case PANEL_ARITHMETIC:
-        return cell->arithmetic.rms;
+        /* What is the reference itself has no error to show. */
+        return !study->reference_is_scalar && cell->level == study->reference_level
+                   ? NAN
+                   : cell->arithmetic.rms;
     default:
         return per_million(&study->levels[level]);
     }
@@ -95,7 +98,7 @@ static panel make_panel(const rt_study *study, enum panel_kind kind)
     for (size_t i = 0; i < points_of(study, kind); ++i)
         for (size_t k = 0; k < study->level_count; ++k) {
             const double e = error_of(study, kind, i, k);
-            has_zero = has_zero || !(e > 0.0);
+            has_zero = has_zero || e <= 0.0;
             low = e > 0.0 && e < low ? e : low;
             high = e > high ? e : high;
         }
@@ -132,7 +135,7 @@ static void print_data(const rt_study *study, const panel *p, FILE *out)
             const rt_study_cell *c = rt_study_cell_at(study, i, k);
             const double e = error_of(study, p->kind, i, k);
             fprintf(out, "%d %.9g %.9g %.9g %.9g %d\n", c->samples, 1e3 * c->kernel.median,
-                    1e3 * c->kernel.low, 1e3 * c->kernel.high, e > 0.0 ? e : p->floor,
+                    1e3 * c->kernel.low, 1e3 * c->kernel.high, e <= 0.0 ? p->floor : e,
                     is_dominated(study, p->kind, i, k));
         }
         fputs("END\n", out);

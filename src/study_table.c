@@ -222,7 +222,7 @@ static void print_notes(const rt_study *study, FILE *out)
                 l->edge_rays, study->edge_triangles);
     fprintf(out, "- Pixels that are not finite: %zu.\n", non_finite(study));
     fprintf(out,
-            "- Times: %d repeats after one that is not timed, level by level there and back; "
+            "- Times: %d after one that does not count, level by level there and back; "
             "medians, and quartiles where two numbers stand; pictures of less than 25 ms are "
             "rendered several times a repeat. Ratios are taken round by round; "
             "where the quartiles of a ratio have 1 between them, there is no measurable "

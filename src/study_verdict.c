@@ -6,6 +6,8 @@
 
 /* A level has to change more than one pixel for so many that too few samples make wrong. */
 #define HIDDEN_BY 100
+/* Ratios are told to two digits: a quartile that reads 1.00 is 1. */
+#define RATIO_MARGIN 0.005
 
 void rt_study_conclude(rt_study *study)
 {
@@ -33,7 +35,7 @@ bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t lev
 
 bool rt_study_is_free(const rt_spread *ratio)
 {
-    return ratio->low <= 1.0 && ratio->high >= 1.0;
+    return ratio->low < 1.0 + RATIO_MARGIN && ratio->high > 1.0 - RATIO_MARGIN;
 }
 
 /* "1, 4 and 16": the counts at which the level can be seen, or those at which it cannot. */

@@ -118,6 +118,7 @@ static void what_a_level_costs(void **state)
                       "quartiles 0.98 to 1.05.");
     free(text);
     assert_true(rt_study_is_free(&(rt_spread){1.0, 1.1, 1.2}));
+    assert_true(rt_study_is_free(&(rt_spread){1.004, 1.1, 1.2}));
     assert_false(rt_study_is_free(&(rt_spread){1.01, 1.1, 1.2}));
     assert_false(rt_study_is_free(&(rt_spread){0.8, 0.9, 0.99}));
     study.kernel_is_wall = true;
@@ -207,6 +208,40 @@ static void json(void **state)
     assert_true(json_is_null(json_object_get(level, "leaks")));
     assert_true(json_is_null(json_object_get(json_object_get(level, "t_error_ulp"), "p50")));
     json_decref(root);
+    free(text);
+}
+
+static bool write_md(const rt_study *study, rt_output *output, rt_status *status)
+{
+    return rt_study_write_md(study, NULL, output, status);
+}
+
+static void md(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = written(write_md, &study);
+    assert_says(text, "\n| 16 | robust | 24 | 1.50 (1.48 to 1.52) | ");
+    assert_says(text, "scalar path in double, at 64 samples");
+    assert_says(text, "not applicable, the scene has no triangles.");
+    assert_null(strstr(text, "does not have"));
+    assert_null(strstr(text, "!["));
+    free(text);
+    /* On a poorer device, where the scalar path takes too long. */
+    study.lacks[RT_ACCURACY_DOUBLE] = true;
+    study.reference_is_scalar = false;
+    study.reference_level = RT_ACCURACY_ROBUST;
+    study.reference_seconds = 123.4;
+    study.kernel_is_wall = true;
+    text = written(write_md, &study);
+    assert_says(text, "This device does not have the level double.");
+    assert_says(text,
+                "would take 123 s for one sample a pixel, so the reference of the pictures is "
+                "the device at robust");
+    assert_says(text, " | the reference | | |\n");
+    assert_says(text, "This device has no clock");
     free(text);
 }
 
@@ -396,6 +431,7 @@ int main(void)
         cmocka_unit_test(csv),
         cmocka_unit_test(json),
         cmocka_unit_test(closed_meshes),
+        cmocka_unit_test(md),
         cmocka_unit_test(a_tiny_study),
         cmocka_unit_test(edges),
         cmocka_unit_test(without_gnuplot),
