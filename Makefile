@@ -14,7 +14,7 @@ Q := $(if $(V),,@)
 say = @$(if $(V),:,printf '  %-6s %s\n' $(1)) $@
 
 PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
-            libdeflate-dev libcmocka-dev pkg-config
+            libdeflate-dev libcmocka-dev libgmp-dev pkg-config
 PACKAGES_LINT := clang-format clang-tidy cppcheck
 PACKAGES_CLANG := clang
 PACKAGES_BENCH := libembree-dev tachyon povray
@@ -101,7 +101,7 @@ $(BUILD)/tests_%.o: tests/%.c | $(BUILD)
 
 $(BUILD)/test_%: tests/test_%.c $(TEST_HELPERS) $(LIBRARY)
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lm
+	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lgmp -lm
 
 # On PoCL alone, whose leaks are known: what other drivers keep is not ours either.
 asan: deps
