@@ -287,7 +287,8 @@ static bool study(run *r)
     const rt_study_how how = {.device = r->chosen[0],
                               .has_tree = o->accel == RT_ACCEL_BVH,
                               .lanes = o->lanes,
-                              .tile = o->tile};
+                              .tile = o->tile,
+                              .effects = o->effects};
     begin_progress(r);
     const bool good =
         rt_study_run(&r->study, &r->scene, o->scene, &o->plan, &how, &r->watch, &r->status);

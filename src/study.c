@@ -50,7 +50,10 @@ rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, enum rt_ac
     rt_scene copy = *scene; /* the arrays stay the caller's */
     copy.accuracy = level;
     copy.samples = samples;
-    const rt_render_options options = {.lanes = s->how->lanes, .tile = s->how->tile};
+    rt_effects effects = rt_effects_of(&copy);
+    effects.mode = s->how->effects;
+    const rt_render_options options = {
+        .lanes = s->how->lanes, .tile = s->how->tile, .effects = &effects};
     rt_bvh bvh = {0};
     if (s->how->has_tree && !rt_bvh_build(&bvh, &copy, rt_parallel_processors(), s->status))
         return NULL;

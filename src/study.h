@@ -66,6 +66,7 @@ typedef struct rt_study_how {
     const rt_device *device;
     bool has_tree;
     int lanes, tile; /* as in rt_render_options */
+    enum rt_effects_mode effects;
 } rt_study_how;
 
 /* Measures. `study` holds nothing after a failure. */
