@@ -109,7 +109,10 @@ static panel make_panel(const rt_study *study, enum panel_kind kind)
         low = low > 0.1 ? 0.1 : low;
     }
     const double decade = pow(10.0, floor(log10(low)));
-    return (panel){kind, has_zero ? 0.1 * decade : 0.0, has_zero ? 0.02 * decade : 0.6 * decade,
+    return (panel){kind, has_zero ? 0.1 * decade : 0.0,
+                   has_zero                   ? 0.02 * decade
+                   : kind == PANEL_ARITHMETIC ? 0.15 * decade
+                                              : 0.6 * decade,
                    3.0 * high};
 }
 

@@ -27,10 +27,23 @@ void rt_study_conclude(rt_study *study)
     }
 }
 
+static bool is_seen(const rt_study *study, size_t sample_index, size_t pixels)
+{
+    return pixels * HIDDEN_BY > study->sampling[sample_index].over_1;
+}
+
 bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index)
 {
-    const size_t changed = rt_study_cell_at(study, sample_index, level_index)->changed;
-    return changed * HIDDEN_BY > study->sampling[sample_index].over_1;
+    return is_seen(study, sample_index,
+                   rt_study_cell_at(study, sample_index, level_index)->changed);
+}
+
+bool rt_study_errs_visibly(const rt_study *study, size_t level_index)
+{
+    for (size_t i = 0; i < study->plan.sample_count; ++i)
+        if (is_seen(study, i, rt_study_cell_at(study, i, level_index)->arithmetic.over_1))
+            return true;
+    return false;
 }
 
 bool rt_study_is_free(const rt_spread *ratio)
@@ -160,6 +173,7 @@ void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out)
     fprintf(out, "%s: ", rt_accuracy_name(study->levels[level_index].level));
     if (study->levels[level_index].level == study->base) {
         fputs("what the others are held against", out);
+        fputs(rt_study_errs_visibly(study, level_index) ? "; wrong where you can see it" : "", out);
         return;
     }
     switch (pattern_of(study, level_index, &turn)) {
@@ -185,15 +199,50 @@ void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out)
         fputs("; no measurable cost", out);
     else
         fprintf(out, "; %.2f times the time of %s", r->median, base);
+    fputs(rt_study_errs_visibly(study, level_index) ? "; wrong where you can see it" : "", out);
 }
 
 static bool levels_agree(const rt_study *study)
 {
     size_t turn = 0;
     for (size_t i = 0; i < study->level_count; ++i)
-        if (pattern_of(study, i, &turn) != SEEN_NEVER)
+        if (pattern_of(study, i, &turn) != SEEN_NEVER || rt_study_errs_visibly(study, i))
             return false;
-    return true;
+    return study->level_count > 1;
+}
+
+/* Which levels go wrong where one can see it, and what to take in their place. */
+static void say_what_is_wrong(const rt_study *study, FILE *out)
+{
+    const size_t last = study->plan.sample_count - 1;
+    size_t wrong = 0, left = 0, best = study->level_count;
+    for (size_t k = 0; k < study->level_count; ++k) {
+        wrong += rt_study_errs_visibly(study, k);
+        if (!rt_study_errs_visibly(study, k) &&
+            (best == study->level_count || rt_study_cell_at(study, last, k)->kernel.median <
+                                               rt_study_cell_at(study, last, best)->kernel.median))
+            best = k;
+    }
+    left = wrong;
+    for (size_t k = 0; k < study->level_count; ++k)
+        if (rt_study_errs_visibly(study, k)) {
+            --left;
+            fprintf(out, "%s%s", rt_accuracy_name(study->levels[k].level),
+                    left > 1 ? ", "
+                    : left   ? " and "
+                             : "");
+        }
+    if (wrong > 0)
+        fprintf(out, " put%s pixels off by arithmetic where you can see it", wrong > 1 ? "" : "s");
+    else
+        fprintf(out, "No level studied puts pixels off by arithmetic where you could see it");
+    if (best == study->level_count)
+        fputs(", and no other was studied.\n", out);
+    else if (study->level_count == 1)
+        fputs(".\n", out);
+    else
+        fprintf(out, "; %s%s takes the least time.\n", wrong > 0 ? "of the others, " : "",
+                rt_accuracy_name(study->levels[best].level));
 }
 
 char *rt_study_verdict(const rt_study *study)
@@ -203,20 +252,18 @@ char *rt_study_verdict(const rt_study *study)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return NULL;
-    if (study->level_count > 1 && levels_agree(study))
-        fputs("The levels agree: this scene has no case so hard that one could see a difference.\n",
+    if (levels_agree(study))
+        fputs("The levels agree: this scene has no case so hard that one could see a difference. ",
               out);
+    say_what_is_wrong(study, out);
     for (size_t i = 0; i < study->level_count; ++i) {
         if (study->levels[i].level == study->base)
             continue;
-        fputs(ftell(out) > 0 ? "\n" : "", out);
+        fputc('\n', out);
         say_what_it_buys(study, i, out);
         say_what_it_costs(study, i, out);
         fputc('\n', out);
     }
-    if (study->level_count == 1)
-        fprintf(out, "Only %s was studied: there is nothing to hold it against.\n",
-                rt_accuracy_name(study->base));
     if (fclose(out) == 0)
         return text;
     free(text);

@@ -11,7 +11,11 @@
  * wrong by more than one step anyway. */
 bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index);
 
-/* Whether the quartiles of the ratio have 1 between them: no measurable cost. */
+/* Whether at some count arithmetic alone puts so many pixels of the level off from the reference.
+ */
+bool rt_study_errs_visibly(const rt_study *study, size_t level_index);
+
+/* Whether the quartiles of the ratio have 1, to two digits, between them: no measurable cost. */
 bool rt_study_is_free(const rt_spread *ratio);
 
 /* What to take away, a sentence or two a paragraph, with an empty line between paragraphs; the

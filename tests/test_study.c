@@ -126,9 +126,45 @@ static void what_a_level_costs(void **state)
     text = rt_study_verdict(&study);
     assert_says(text, "It takes 1.20 times the time of standard");
     free(text);
-    study.level_count = 1;
+}
+
+/* By arithmetic; robust is exact unless said otherwise. */
+static void what_goes_wrong(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = rt_study_verdict(&study);
+    assert_says(text, "The levels agree: this scene has no case so hard that one could see a "
+                      "difference. No level studied puts pixels off by arithmetic where you could "
+                      "see it; standard takes the least time.\n");
+    free(text);
+    cells[4].arithmetic.over_1 = 1; /* hidden by 100 that too few samples put off */
     text = rt_study_verdict(&study);
-    assert_says(text, "Only standard was studied");
+    assert_says(text, "The levels agree");
+    free(text);
+    cells[4].arithmetic.over_1 = 2;
+    text = rt_study_verdict(&study);
+    assert_null(strstr(text, "The levels agree"));
+    assert_says(text, "standard puts pixels off by arithmetic where you can see it; of the others, "
+                      "robust takes the least time.\n");
+    free(text);
+    cells[1].arithmetic.over_1 = 11;
+    text = rt_study_verdict(&study);
+    assert_says(text, "standard and robust put pixels off by arithmetic where you can see it, and "
+                      "no other was studied.\n");
+    free(text);
+    cells[0] = cells[1];
+    study.level_count = study.plan.sample_count = 1;
+    text = rt_study_verdict(&study);
+    assert_string_equal(text, "standard puts pixels off by arithmetic where you can see it, and no "
+                              "other was studied.\n");
+    free(text);
+    cells[0].arithmetic.over_1 = 0;
+    text = rt_study_verdict(&study);
+    assert_string_equal(text, "No level studied puts pixels off by arithmetic where you could see "
+                              "it.\n");
     free(text);
 }
 
@@ -428,6 +464,7 @@ int main(void)
         cmocka_unit_test(what_a_level_buys),
         cmocka_unit_test(what_a_level_costs),
         cmocka_unit_test(what_is_dominated),
+        cmocka_unit_test(what_goes_wrong),
         cmocka_unit_test(csv),
         cmocka_unit_test(json),
         cmocka_unit_test(closed_meshes),
