@@ -138,7 +138,7 @@ static bool make_timings(study_state *s, timings *t)
 {
     t->repeats = (size_t)s->study->plan.repeats;
     const size_t count = s->study->level_count * t->repeats;
-    t->kernel = calloc(4 * count, sizeof *t->kernel);
+    t->kernel = calloc(4 * count + 1, sizeof *t->kernel);
     if (!t->kernel)
         return rt_status_no_memory(s->status, "times");
     t->readback = t->kernel + count;
@@ -344,6 +344,9 @@ static bool choose_levels(rt_study *study, rt_status *status)
         if (has)
             study->reference_level = level;
         study->lacks[i] = study->plan.levels[i] && !has;
+        if (study->lacks[i])
+            rt_status_warn(status, "rt: warning: '%s' does not have the level %s",
+                           study->device->name, rt_accuracy_name(level));
         study->plan.levels[i] = study->plan.levels[i] && has;
         if (study->plan.levels[i])
             study->levels[study->level_count++].level = level;

@@ -171,9 +171,10 @@ bool rt_study_mesh_find(rt_study_mesh *mesh, const rt_scene *scene, rt_status *s
                 .neighbors = calloc(3 * count, sizeof *f.neighbors),
                 .sizes = calloc(count, sizeof *f.sizes),
                 .is_open = calloc(count, sizeof *f.is_open)};
-    bool good = (f.sides && f.parents && f.neighbors && f.sizes && f.is_open) ||
-                rt_status_no_memory(status, "a mesh");
-    if (good) {
+    bool good = false;
+    if (!f.sides || !f.parents || !f.neighbors || !f.sizes || !f.is_open) {
+        rt_status_no_memory(status, "a mesh");
+    } else {
         list_sides(&f, scene);
         const int32_t root = largest(&f);
         good = root < 0 || collect(&f, scene, root, mesh, status);

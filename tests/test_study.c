@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 
 #include "study_mesh.h"
+#include "study_plot.h"
 #include "study_report.h"
 #include "study_verdict.h"
 
@@ -281,6 +282,51 @@ static void md(void **state)
     free(text);
 }
 
+static char *script_of(const rt_study *study)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    rt_study_plot_script(study, "a.svg", "it's.png", out);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* What has no logarithm is drawn at the tick 0; what another does as well is grey; leaks are drawn
+ * where they were looked for. */
+static void the_plot(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    rt_study_conclude(&study);
+    char *text = script_of(&study);
+    assert_says(text, "\nset output 'a.svg'\n");
+    assert_says(text, "\nset output 'it''s.png'\n");
+    assert_says(text, "$standard_0 << END\n1 1 0.99 1.01 4 0\n4 4 3.96 4.04 2 0\n");
+    assert_says(text, "$robust_0 << END\n1 1.5 1.485 1.515 4 1\n");
+    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 0.001 0\n");
+    assert_says(text, "set ytics add (\"0\" 0.001)");
+    assert_says(text, "\"robust: changes nothing that you can see up to 16 samples; 1.50 times the "
+                      "time of standard\"");
+    assert_null(strstr(text, "closed mesh"));
+    free(text);
+    study.no_edges = NULL;
+    study.levels[0].edge_rays = study.levels[1].edge_rays = 1000;
+    study.levels[0].leaks = 20;
+    study.levels[0].double_hits = 5;
+    study.reference_is_scalar = false;
+    study.reference_level = RT_ACCURACY_ROBUST;
+    text = script_of(&study);
+    assert_says(text, "closed mesh");
+    assert_says(text, "$standard_2 << END\n1 1 0.99 1.01 25000 0\nEND\n");
+    assert_says(text, "$robust_2 << END\n1 1.5 1.485 1.515 1000 0\nEND\n");
+    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 nan 0\n");
+    free(text);
+}
+
 /* Two tetrahedra, of which one lacks a side, and a stray triangle. */
 static void closed_meshes(void **state)
 {
@@ -469,6 +515,7 @@ int main(void)
         cmocka_unit_test(json),
         cmocka_unit_test(closed_meshes),
         cmocka_unit_test(md),
+        cmocka_unit_test(the_plot),
         cmocka_unit_test(a_tiny_study),
         cmocka_unit_test(edges),
         cmocka_unit_test(without_gnuplot),
