@@ -295,6 +295,50 @@ static void written_scenes(void **state)
     globfree(&found);
 }
 
+/* The comparison notices kernels that are almost right, each by the effect that it is about. */
+static void a_wrong_kernel_is_noticed(void **state)
+{
+    (void)state;
+    static const struct {
+        int asked;
+        const char *file, *from, *to;
+    } mutants[] = {
+        {SAMPLES | TENT, "camera.cl", "ROOT_1(twice) - (number)1.0f", "twice - (number)1.0f"},
+        {SAMPLES, "sampling.cl", "2 * (uint)s + 1", "2 * (uint)s"},
+        {LENS, "sampling.cl", "*x = r * (flat ? cosine : sine)", "*x = r * (flat ? sine : cosine)"},
+        {LENS | SAMPLES, "sampling.cl", "0 : seed % cells", "0 : 0 * seed"},
+        {SOFT, "sampling.cl", "copysign((number)1.0f, n.z)", "(number)1.0f"},
+        {SOFT, "probe.cl", "ADD_SCALED(s.point, away, place)", "place"},
+        {HARD, "probe.cl", "(1.0f - 0x1p-12f)", "(1.0f + 0x1p-1f)"},
+        {HARD, "shade.cl", "ON(SHADOWS) && light.shadow", "ON(SHADOWS) && light.shadow && k"},
+        {OCCLUSION, "probe.cl", "fma(-x, x,", "fma(x, x,"},
+        {OCCLUSION | SMOOTH, "probe.cl", "on = DOT(out, s.facing) > (number)0.0f;", ""},
+        {SOFT | OCCLUSION | MIRROR, "probe.cl", "RT_DIMENSION(base, bounce,",
+         "RT_DIMENSION(base, 0 * bounce,"},
+        {MIRROR | SMOOTH, "path.cl", "!(DOT(*out, s->facing) > (number)0.0f)", "0"},
+        {MIRROR | GLASS, "shade.cl", "from.bounce < depth", "from.bounce <= depth"},
+        {MIRROR | GLASS, "path.cl", "(r->weight >= (number)RT_WEIGHT_LEAST)",
+         "(r->weight >= (number)(4 * RT_WEIGHT_LEAST))"},
+        {GLASS, "path.cl", "leave(s, SCALE(s->facing, (number)-1.0f)", "leave(s, s->facing"},
+        {GLASS, "path.cl", "fma(-eta, c2, c1)", "fma(-eta, c1, c2)"},
+        {GLASS, "path.cl", ": ior;", ": DIVIDE_1((number)1.0f, ior);"},
+        {GLASS | ABSORB, "path.cl", "s->outside ? material : RT_OUTSIDE", "material"},
+        {CHECKER, "pattern.cl", "DIVIDE_1(point.x, cell) + half_", "DIVIDE_1(point.x, cell)"},
+        {TEXTURE, "pattern.cl", "t.height - 1 - ", ""},
+        {TEXTURE, "pattern.cl", "floor(across - (number)0.5f)", "floor(across)"},
+        {FOG, "shade.cl", "exp((number)-fog.density * t)", "exp((number)-fog.density)"},
+        {GRADIENT, "shade.cl", "fma((number)0.5f, DOT(d, up), (number)0.5f)", "DOT(d, up)"},
+    };
+    for (size_t i = 0; i < sizeof mutants / sizeof *mutants; ++i) {
+        tally sum = {0, 0, 0, 0};
+        test_mutate_kernels(mutants[i].file, mutants[i].from, mutants[i].to);
+        compare_random(5000, 4, mutants[i].asked, &sum);
+        test_restore_kernels();
+        if (sum.off + sum.hits == 0)
+            fail_msg("nobody notices '%s' in the place of '%s'", mutants[i].to, mutants[i].from);
+    }
+}
+
 static int set_up(void **state)
 {
     (void)state;
@@ -307,6 +351,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_scenes),
         cmocka_unit_test(written_scenes),
+        cmocka_unit_test(a_wrong_kernel_is_noticed),
     };
     return cmocka_run_group_tests(tests, set_up, NULL);
 }
