@@ -316,7 +316,7 @@ static void a_wrong_kernel_is_noticed(void **state)
         {SOFT | OCCLUSION | MIRROR, "probe.cl", "RT_DIMENSION(base, bounce,",
          "RT_DIMENSION(base, 0 * bounce,"},
         {MIRROR | SMOOTH, "path.cl", "!(DOT(*out, s->facing) > (number)0.0f)", "0"},
-        {MIRROR | GLASS, "shade.cl", "from.bounce < depth", "from.bounce <= depth"},
+        {MIRROR | GLASS, "shade.cl", "from.bounce < depth", "from.bounce + 1 < depth"},
         {MIRROR | GLASS, "path.cl", "(r->weight >= (number)RT_WEIGHT_LEAST)",
          "(r->weight >= (number)(4 * RT_WEIGHT_LEAST))"},
         {GLASS, "path.cl", "leave(s, SCALE(s->facing, (number)-1.0f)", "leave(s, s->facing"},
