@@ -68,7 +68,7 @@ static bool hold_naives(const hard_case *c, size_t figures, char cells[][256])
     for (size_t f = 0; f < figures; ++f)
         cells[f][0] = 0;
     for (int n = 0; n < HARD_NAIVES && c->naives[n]; ++n) {
-        const hard_way way = {c->naives[n]->name, RT_ACCURACY_STANDARD, c->naives[n], true};
+        const hard_way way = {c->naives[n]->name, RT_ACCURACY_STANDARD, c->naives[n], false};
         double values[HARD_FIGURES] = {0.0};
         bool is_caught = false;
         c->measure(&way, c->of, values);
@@ -129,16 +129,36 @@ void hard_finish(void)
         fail_msg("%d cases do not hold", count);
 }
 
-void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene)
+static void open_tracer(hard_tracer *tracer, const hard_way *way, rt_scene *scene,
+                        bool with_occlusion)
 {
+    const rt_render_options options = {.with_occlusion = with_occlusion};
     scene->accuracy = way->level;
-    *tracer = (hard_tracer){scene, way->naive, NULL};
-    if (way->naive)
+    *tracer = (hard_tracer){scene, NULL, NULL};
+    if (way->naive && way->naive->trace) {
+        tracer->naive = way->naive;
         return;
-    const rt_render_options options = {0};
+    }
+    if (way->naive && way->naive->file)
+        test_mutate_kernels(way->naive->file, way->naive->from, way->naive->to);
     test_use_tree(!way->by_brute_force);
     tracer->renderer = test_renderer(scene, &options);
     test_use_tree(true);
+    test_restore_kernels();
+}
+
+void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene)
+{
+    open_tracer(tracer, way, scene, false);
+}
+
+void hard_draw(const hard_way *way, rt_scene *scene, rt_image *image)
+{
+    scene->accuracy = way->level;
+    if (way->naive && way->naive->file)
+        test_mutate_kernels(way->naive->file, way->naive->from, way->naive->to);
+    test_draw(scene, NULL, image);
+    test_restore_kernels();
 }
 
 void hard_trace(hard_tracer *tracer, const rt_ray *rays, size_t count, rt_hit *hits)
@@ -148,6 +168,24 @@ void hard_trace(hard_tracer *tracer, const rt_ray *rays, size_t count, rt_hit *h
         tracer->naive->trace(tracer->scene, rays, count, hits);
     else
         assert_good(rt_renderer_trace(tracer->renderer, rays, count, hits, &status), &status);
+}
+
+size_t hard_open_rays(const hard_way *way, rt_scene *scene, const rt_ray *rays, size_t count)
+{
+    static uint8_t occluded[HARD_CHUNK];
+    rt_status status = RT_STATUS_INIT;
+    hard_tracer tracer;
+    size_t open = 0;
+    open_tracer(&tracer, way, scene, true);
+    for (size_t done = 0; done < count; done += HARD_CHUNK) {
+        const size_t part = count - done < HARD_CHUNK ? count - done : HARD_CHUNK;
+        assert_good(rt_renderer_occluded(tracer.renderer, rays + done, part, occluded, &status),
+                    &status);
+        for (size_t i = 0; i < part; ++i)
+            open += !occluded[i];
+    }
+    hard_close(&tracer);
+    return open;
 }
 
 void hard_close(hard_tracer *tracer)

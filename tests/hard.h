@@ -9,11 +9,13 @@
 
 #include "scalar.h"
 
-/* A naive variant: nearest hits by plain scalar C (tests/hard_naive.c). */
+/* A naive variant: nearest hits by plain scalar C (tests/hard_naive.c), or kernels in which the
+ * text `from` of a file is replaced, or neither where the case itself is naive then. */
 typedef void hard_trace_fn(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
 typedef struct hard_naive {
     const char *name;
-    hard_trace_fn *trace; /* NULL where the case does something else with the variant */
+    hard_trace_fn *trace;
+    const char *file, *from, *to;
 } hard_naive;
 
 /* What answers: a level on the device, through the tree or by brute force; or a naive variant. */
@@ -71,6 +73,12 @@ typedef struct hard_tracer {
 void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene);
 void hard_trace(hard_tracer *tracer, const rt_ray *rays, size_t count, rt_hit *hits);
 void hard_close(hard_tracer *tracer);
+
+/* How many of the rays nothing is in the way of, by the kernel for any hit. */
+size_t hard_open_rays(const hard_way *way, rt_scene *scene, const rt_ray *rays, size_t count);
+
+/* Renders the scene in some way, with hit records where the device does it. */
+void hard_draw(const hard_way *way, rt_scene *scene, rt_image *image);
 
 /* Rays that are traced at a time. */
 #define HARD_CHUNK 65536

@@ -209,8 +209,8 @@ static void aim_at_triangle(const hard_mesh *mesh, const int t[3], enum hard_aim
 
 /* Rays from `first` on. In every second block of 64 all start at one point and are aimed at one
  * triangle. */
-static void aim_rays(const hard_mesh *mesh, enum hard_aim aim, size_t first, size_t count,
-                     rt_ray *rays)
+void hard_mesh_aim(const hard_mesh *mesh, enum hard_aim aim, size_t first, size_t count,
+                   rt_ray *rays)
 {
     const bool fan = mesh->color_bits > 8;
     for (size_t i = 0; i < count; ++i) {
@@ -254,9 +254,8 @@ typedef struct counter {
     int count;
 } counter;
 
-static void fill(rt_scene *scene, const hard_mesh *mesh, int bit, int value)
+void hard_mesh_fill(rt_scene *scene, const hard_mesh *mesh, int bit, int value)
 {
-    hard_scene(scene);
     for (int i = 0; i < mesh->triangle_count; ++i) {
         float corners[9];
         if (bit >= 0 && (mesh->colors[i] >> bit & 1) != value)
@@ -272,7 +271,8 @@ static void open_all(counter *c, const hard_way *way, const hard_mesh *mesh)
     c->count = 1 + 2 * mesh->color_bits;
     assert_true(c->count <= SCENES_MAX);
     for (int i = 0; i < c->count; ++i) {
-        fill(&c->scenes[i], mesh, i ? (i - 1) / 2 : -1, (i - 1) % 2);
+        hard_scene(&c->scenes[i]);
+        hard_mesh_fill(&c->scenes[i], mesh, i ? (i - 1) / 2 : -1, (i - 1) % 2);
         hard_open(&c->tracers[i], way, &c->scenes[i]);
     }
 }
@@ -327,7 +327,7 @@ hard_crossings hard_count(const hard_way *way, const hard_mesh *mesh, enum hard_
         if (aim == HARD_AIM_SEAM)
             aim_at_seam(mesh, sum.rays, part, rays);
         else
-            aim_rays(mesh, aim, sum.rays, part, rays);
+            hard_mesh_aim(mesh, aim, sum.rays, part, rays);
         count_chunk(&c, rays, part, &sum);
     }
     close_all(&c);

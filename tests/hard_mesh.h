@@ -33,6 +33,13 @@ enum hard_aim {
     HARD_AIM_SEAM /* the one ray of the table, and its neighbours */
 };
 
+/* Adds the mesh's triangles to a scene that has a material; with bit >= 0 those whose colour has
+ * `value` there. */
+void hard_mesh_fill(rt_scene *scene, const hard_mesh *mesh, int bit, int value);
+/* Rays `first` to `first` + `count` of those that are aimed so. */
+void hard_mesh_aim(const hard_mesh *mesh, enum hard_aim aim, size_t first, size_t count,
+                   rt_ray *rays);
+
 typedef struct hard_crossings {
     size_t rays, none, several;
 } hard_crossings;

@@ -180,10 +180,10 @@ static void trace_quadratic(const rt_scene *scene, const rt_ray *rays, size_t co
     }
 }
 
-const hard_naive hard_naive_epsilon = {"determinant above 1e-6", trace_epsilon};
-const hard_naive hard_naive_moller = {"Moller-Trumbore", trace_moller};
-const hard_naive hard_naive_inside = {"u, v above 1e-4", trace_inside};
-const hard_naive hard_naive_woop = {"Woop contracted", trace_woop};
-const hard_naive hard_naive_quadratic = {"b*b - 4ac", trace_quadratic};
-const hard_naive hard_naive_slab = {"slabs without margin", trace_slab};
-const hard_naive hard_naive_last = {"last of equals", trace_last};
+const hard_naive hard_naive_epsilon = {.name = "determinant above 1e-6", .trace = trace_epsilon};
+const hard_naive hard_naive_moller = {.name = "Moller-Trumbore", .trace = trace_moller};
+const hard_naive hard_naive_inside = {.name = "u, v above 1e-4", .trace = trace_inside};
+const hard_naive hard_naive_woop = {.name = "Woop contracted", .trace = trace_woop};
+const hard_naive hard_naive_quadratic = {.name = "b*b - 4ac", .trace = trace_quadratic};
+const hard_naive hard_naive_slab = {.name = "slabs without margin", .trace = trace_slab};
+const hard_naive hard_naive_last = {.name = "last of equals", .trace = trace_last};
