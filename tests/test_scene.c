@@ -124,14 +124,19 @@ static void arrays_grow(void **state)
         const rt_triangle triangle = {(float)i, 0, 0, 1, 1, 1, 2, 2, 2};
         const float normals[9] = {(float)i, 0, 0, 0, 0, 0, 0, 0, (float)-i};
         assert_true(rt_scene_add_sphere(&s, &sphere, i, &status));
+        const float uvs[RT_UV_COMPONENTS] = {(float)i, 0, 1, 0, 0, 1};
         assert_true(rt_scene_add_triangle(&s, &triangle, i % 2 ? normals : NULL, 2 * i, &status));
+        assert_true(i % 4 || rt_scene_set_uvs(&s, uvs, &status));
     }
     assert_int_equal(s.sphere_count, 1000);
     assert_int_equal(s.normal_count, 500);
+    assert_int_equal(s.uv_count, 250);
     for (int i = 0; i < 1000; ++i) {
         assert_true(s.spheres[i].cx == (float)i && s.sphere_materials[i] == i);
         assert_true(s.triangles[i].ax == (float)i && s.triangle_materials[i] == 2 * i);
         assert_int_equal(s.triangle_normals[i], i % 2 ? i / 2 : -1);
+        assert_int_equal(s.triangle_uvs[i], i % 4 ? -1 : i / 4);
+        assert_true(i % 4 || s.uvs[RT_UV_COMPONENTS * (i / 4)] == (float)i);
         if (i % 2)
             assert_true(s.normals[9 * (i / 2)] == (float)i &&
                         s.normals[9 * (i / 2) + 8] == (float)-i);
