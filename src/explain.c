@@ -6,9 +6,10 @@
 
 #include "clock.h"
 
-#define PAIRS 9
-/* What a measured picture should take, and the smallest that tells something. */
-#define PICTURE_SECONDS 0.1
+#define PAIRS 8
+/* What all measured pictures together should take; where kernels are built that adds to it. */
+#define BUDGET_SECONDS 40.0
+/* The longer side of the first picture that is tried for size. */
 #define SIDE_FIRST 64
 
 rt_explanation rt_explain(const rt_scene *scene)
@@ -83,7 +84,8 @@ typedef struct bench {
     const rt_render_options *options;
     const rt_watch *outer;
     rt_watch watch;
-    double done; /* what the outer watch is told, whatever the part of one picture is */
+    double done;            /* what the outer watch is told, whatever the part of one picture is */
+    double picture_seconds; /* what one picture may take */
     rt_status *status;
 } bench;
 
@@ -141,7 +143,7 @@ static bool choose_size(const bench *b, rt_scene *scene)
         if (!time_size(b, scene, &seconds))
             return false;
         /* Small pictures have a part of the time that does not grow: steps of twice the side. */
-        if (seconds > 0.3 * PICTURE_SECONDS)
+        if (seconds > 0.3 * b->picture_seconds)
             return true;
         factor *= 2.0;
     }
@@ -160,8 +162,12 @@ static bool draw_pairs(const bench *b, rt_renderer *with, rt_renderer *without, 
     for (int i = 0; i < PAIRS; ++i) {
         const double with_before = own_stages(with, effect);
         const double without_before = own_stages(without, effect);
-        if (!draw(b, with, image, &times[0][i]) || !draw(b, without, image, &times[1][i]))
-            return false;
+        /* The second of a pair finds other caches and clocks than the first: each is it in turn. */
+        for (int k = 0; k < 2; ++k) {
+            const int which = (i + k) % 2;
+            if (!draw(b, which ? without : with, image, &times[which][i]))
+                return false;
+        }
         stages[i] =
             own_stages(with, effect) - with_before - (own_stages(without, effect) - without_before);
         differences[i] = times[0][i] - times[1][i];
@@ -194,8 +200,14 @@ bool rt_explain_measure(rt_explanation *e, const rt_scene *scene, const rt_bvh *
                         const rt_device *device, const rt_render_options *options,
                         const rt_watch *watch, rt_status *status)
 {
-    bench b = {bvh, device, options, watch, {tick, NULL}, 0.0, status};
+    bench b = {bvh, device, options, watch, {tick, NULL}, 0.0, 0.0, status};
+    int count = 0;
+    for (int i = 0; i < RT_EFFECT_COUNT; ++i)
+        count += e->effects.on[i];
+    if (count == 0)
+        return true;
     b.watch.context = &b;
+    b.picture_seconds = BUDGET_SECONDS / (2 * (PAIRS + 1) * count);
     rt_scene small = *scene; /* shares all arrays, and is never cleared */
     rt_image image = {0};
     rt_renderer *with = NULL;

@@ -29,9 +29,9 @@ typedef struct rt_explanation {
 /* What the scene calls for, without any cost. */
 rt_explanation rt_explain(const rt_scene *scene);
 
-/* Measures every effect that is on. The tree is the scene's own, or NULL. A picture that takes
- * longer than a tenth of a second is made smaller, so that most of the time goes to building
- * kernels that are built for the first time. */
+/* Measures every effect that is on. The tree is the scene's own, or NULL. The picture is made
+ * smaller where it would take minutes; kernels that are built for the first time add to the time.
+ */
 bool rt_explain_measure(rt_explanation *explanation, const rt_scene *scene, const rt_bvh *bvh,
                         const rt_device *device, const rt_render_options *options,
                         const rt_watch *watch, rt_status *status);
