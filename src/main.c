@@ -210,7 +210,10 @@ static bool verify(run *r)
     if (!rt_image_init(&expected, r->image.width, r->image.height, true, &r->status))
         return false;
     begin_progress(r);
-    const bool good = rt_scalar_float_render(&r->scene, &expected, &r->watch, &r->status);
+    /* The scalar path at the device's own precision. */
+    const bool is_double = r->scene.accuracy == RT_ACCURACY_DOUBLE;
+    const bool good = (is_double ? rt_scalar_double_render : rt_scalar_float_render)(
+        &r->scene, &expected, &r->watch, &r->status);
     rt_progress_clear(&r->progress);
     if (!good) {
         rt_image_clear(&expected);

@@ -33,6 +33,7 @@ enum {
 
 typedef struct text {
     char *at, *end;
+    double size; /* of the scene: what its lengths are multiplied by */
 } text;
 
 __attribute__((format(printf, 2, 3))) static void say(text *t, const char *format, ...)
@@ -57,6 +58,12 @@ static void say_three(text *t, test_random *random, const char *name, double low
     say(t, " %s %.6g %.6g %.6g", name, x, y, within(random, low, high));
 }
 
+/* The same, for a point. */
+static void say_point(text *t, test_random *random, const char *name, double low, double high)
+{
+    say_three(t, random, name, low * t->size, high * t->size);
+}
+
 #define MATERIALS 5
 
 static void say_material(text *t, test_random *random, int number, int asked)
@@ -74,10 +81,10 @@ static void say_material(text *t, test_random *random, int number, int asked)
         const double rest = asked & MIRROR ? 1 - share : 1;
         say(t, " transmit %.6g ior %.6g", 0.99 * rest, within(random, 0.7, 2));
         if (asked & ABSORB)
-            say_three(t, random, "absorb", 0, 1);
+            say_three(t, random, "absorb", 0, 1 / t->size);
     }
     if (asked & CHECKER && number != 1)
-        say(t, " checker 0.1 0.5 0.9 cell %.6g", within(random, 0.2, 0.9));
+        say(t, " checker 0.1 0.5 0.9 cell %.6g", t->size * within(random, 0.2, 0.9));
     if (asked & TEXTURE && number != 2)
         say(t, " texture \"texture.bmp\" filter %s", asked & NEAREST ? "nearest" : "bilinear");
     say(t, "\n");
@@ -91,11 +98,11 @@ static void say_lights(text *t, test_random *random, int asked)
     say(t, " color 0.3 0.4 0.2 shadow %s\n", asked & HARD ? "on" : "off");
     for (int i = 0; i < 2; ++i) {
         say(t, "light point");
-        say_three(t, random, "at", -5, 5);
+        say_point(t, random, "at", -5, 5);
         say_three(t, random, "color", 0.2, 0.8);
         say(t, " shadow %s", shadow);
         if (asked & SOFT && (i == 0 || !(asked & HARD)))
-            say(t, " radius %.6g samples %d", within(random, 0.1, 1), 3 + 6 * i);
+            say(t, " radius %.6g samples %d", t->size * within(random, 0.1, 1), 3 + 6 * i);
         say(t, "\n");
     }
 }
@@ -104,15 +111,16 @@ static void say_lights(text *t, test_random *random, int asked)
 static void say_corner(text *t, test_random *random, const char *name, const double *middle)
 {
     const double x = middle[0] + within(random, -1, 1), y = middle[1] + within(random, -1, 1);
-    say(t, " %s %.6g %.6g %.6g", name, x, y, middle[2] + within(random, -1, 1));
+    const double z = middle[2] + within(random, -1, 1);
+    say(t, " %s %.6g %.6g %.6g", name, t->size * x, t->size * y, t->size * z);
 }
 
 static void say_primitives(text *t, test_random *random, int asked)
 {
     for (int i = 0; i < 7; ++i) {
         say(t, "sphere");
-        say_three(t, random, "center", -2.5, 2.5);
-        say(t, " radius %.6g material m%d\n", within(random, 0.2, 0.9), i % MATERIALS);
+        say_point(t, random, "center", -2.5, 2.5);
+        say(t, " radius %.6g material m%d\n", t->size * within(random, 0.2, 0.9), i % MATERIALS);
     }
     for (int i = 0; i < 8; ++i) {
         const double middle[] = {within(random, -2, 2), within(random, -2, 2),
@@ -132,30 +140,33 @@ static void say_primitives(text *t, test_random *random, int asked)
         }
         say(t, " material m%d\n", i % MATERIALS);
     }
-    say(t, "triangle a -20 -2 20 b 20 -2 20 c 0 -2 -20 material m1\n");
+    const double far = 20 * t->size, low = -2 * t->size;
+    say(t, "triangle a %.6g %.6g %.6g b %.6g %.6g %.6g c 0 %.6g %.6g material m1\n", -far, low, far,
+        far, low, far, low, -far);
 }
 
 /* A scene that asks for what `asked` says and for nothing else. */
-static void make_scene(rt_scene *scene, uint64_t seed, int asked)
+static void make_scene(rt_scene *scene, uint64_t seed, int asked, double size)
 {
     static char buffer[16384];
     test_random random = {seed};
-    text t = {buffer, buffer + sizeof buffer};
+    text t = {buffer, buffer + sizeof buffer, size};
     say(&t, "image width 40 height 30 samples %d filter %s\n", asked & SAMPLES ? 5 : 1,
         asked & TENT ? "tent" : "box");
     say(&t, "camera");
-    say_three(&t, &random, "from", 3, 5);
-    say_three(&t, &random, "at", -0.5, 0.5);
+    say_point(&t, &random, "from", 3, 5);
+    say_point(&t, &random, "at", -0.5, 0.5);
     if (asked & LENS)
-        say(&t, " aperture %.6g focus %.6g", within(&random, 0.05, 0.5), within(&random, 3, 8));
+        say(&t, " aperture %.6g focus %.6g", size * within(&random, 0.05, 0.5),
+            size * within(&random, 3, 8));
     say(&t, " vfov 50\nbackground 0.2 0.3 0.5");
     if (asked & GRADIENT)
         say_three(&t, &random, "top", 0, 1);
     say(&t, "\nambient 0.3 0.2 0.4\ndepth %d\n", (int)within(&random, 2, 9));
     if (asked & FOG)
-        say(&t, "fog 0.4 0.5 0.6 density %.6g\n", within(&random, 0.02, 0.2));
+        say(&t, "fog 0.4 0.5 0.6 density %.6g\n", within(&random, 0.02, 0.2) / size);
     if (asked & OCCLUSION)
-        say(&t, "occlusion samples 7 distance %.6g\n", within(&random, 0.5, 3));
+        say(&t, "occlusion samples 7 distance %.6g\n", size * within(&random, 0.5, 3));
     if (asked & CULL)
         say(&t, "cull back\n");
     for (int i = 0; i < MATERIALS; ++i)
@@ -209,11 +220,11 @@ static void compare(const rt_scene *scene, tally *sum)
     rt_image_clear(&expected);
 }
 
-static void compare_random(uint64_t first, int count, int asked, tally *sum)
+static void compare_random(uint64_t first, int count, int asked, double size, tally *sum)
 {
     for (int i = 0; i < count; ++i) {
         rt_scene scene;
-        make_scene(&scene, first + (uint64_t)i, asked);
+        make_scene(&scene, first + (uint64_t)i, asked, size);
         compare(&scene, sum);
         rt_scene_clear(&scene);
     }
@@ -241,32 +252,35 @@ static void random_scenes(void **state)
     static const struct {
         const char *name;
         int asked;
+        double size;
     } sets[] = {
-        {"Phong", 0},
-        {"anti-aliasing", SAMPLES},
-        {"tent filter", SAMPLES | TENT},
-        {"lens", LENS},
-        {"lens and samples", LENS | SAMPLES},
-        {"gradient", GRADIENT},
-        {"fog", FOG},
-        {"checker", CHECKER},
-        {"texture", TEXTURE},
-        {"nearest texel", TEXTURE | NEAREST},
-        {"hard shadows", HARD},
-        {"soft shadows", SOFT},
-        {"hard and soft shadows", HARD | SOFT},
-        {"occlusion", OCCLUSION},
-        {"mirrors", MIRROR},
-        {"smooth mirrors", MIRROR | SMOOTH},
-        {"glass", GLASS},
-        {"smooth glass, culled", GLASS | SMOOTH | CULL},
-        {"mirrors and glass", MIRROR | GLASS | ABSORB},
-        {"all but samples", ALL - SAMPLES},
-        {"all", ALL | POWER},
+        {"Phong", 0, 1},
+        {"anti-aliasing", SAMPLES, 1},
+        {"tent filter", SAMPLES | TENT, 1},
+        {"lens", LENS, 1},
+        {"lens and samples", LENS | SAMPLES, 1},
+        {"gradient", GRADIENT, 1},
+        {"fog", FOG, 1},
+        {"checker", CHECKER, 1},
+        {"texture", TEXTURE, 1},
+        {"nearest texel", TEXTURE | NEAREST, 1},
+        {"hard shadows", HARD, 1},
+        {"soft shadows", SOFT, 1},
+        {"hard and soft shadows", HARD | SOFT, 1},
+        {"occlusion", OCCLUSION, 1},
+        {"mirrors", MIRROR, 1},
+        {"smooth mirrors", MIRROR | SMOOTH, 1},
+        {"glass", GLASS, 1},
+        {"smooth glass, culled", GLASS | SMOOTH | CULL, 1},
+        {"mirrors and glass", MIRROR | GLASS | ABSORB, 1},
+        {"all but samples", ALL - SAMPLES, 1},
+        {"all", ALL | POWER, 1},
+        {"all, tiny", ALL, 1e-5},
+        {"all, huge", ALL, 1e5},
     };
     for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
         tally sum = {0, 0, 0, 0};
-        compare_random(1000 * i, 11, sets[i].asked, &sum);
+        compare_random(1000 * i, 11, sets[i].asked, sets[i].size, &sum);
         assert_twins(sets[i].name, &sum, sets[i].asked & NEAREST);
     }
 }
@@ -332,7 +346,7 @@ static void a_wrong_kernel_is_noticed(void **state)
     for (size_t i = 0; i < sizeof mutants / sizeof *mutants; ++i) {
         tally sum = {0, 0, 0, 0};
         test_mutate_kernels(mutants[i].file, mutants[i].from, mutants[i].to);
-        compare_random(5000, 4, mutants[i].asked, &sum);
+        compare_random(5000, 4, mutants[i].asked, 1, &sum);
         test_restore_kernels();
         if (sum.off + sum.hits == 0)
             fail_msg("nobody notices '%s' in the place of '%s'", mutants[i].to, mutants[i].from);
