@@ -20,7 +20,7 @@ PACKAGES_CLANG := clang
 PACKAGES_BENCH := libembree-dev tachyon povray
 LIBRARIES := OpenCL jansson libdeflate
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl sampling.cl tile.cl intersect.cl \
+KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl sampling.cl tile.cl intersect.cl watertight.cl \
            packet.cl traverse.cl surface.cl camera.cl trace.cl probe.cl pattern.cl path.cl shade.cl queue.cl \
            resolve.cl)
 

@@ -118,6 +118,27 @@ INLINE number most16(RT_PASTE(RT_NUMBER, 16) v)
 #define MOST(v) RT_PASTE(most, RT_LANES)(v)
 #endif
 
+/* What boxes and primitives are made of, in lanes: their own boxes are computed in float at every
+ * level, as the tree's are. */
+#if RT_ACCURACY != RT_DOUBLE
+typedef real floats;
+#define TO_FLOATS(v) (v)
+#define FROM_FLOATS(v) (v)
+#elif RT_LANES == 1
+typedef float floats;
+#define TO_FLOATS(v) ((float)(v))
+#define FROM_FLOATS(v) ((double)(v))
+#else
+typedef RT_PASTE(float, RT_LANES) floats;
+#define TO_FLOATS(v) RT_PASTE(convert_float, RT_LANES)(v)
+#define FROM_FLOATS(v) RT_PASTE(convert_double, RT_LANES)(v)
+#endif
+#if RT_LANES == 1
+#define GREATER_FLOATS(a, b) GREATER_1(a, b)
+#else
+#define GREATER_FLOATS(a, b) GREATER_N(a, b)
+#endif
+
 typedef struct real3 {
     real x, y, z;
 } real3;

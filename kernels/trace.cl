@@ -32,7 +32,11 @@ INLINE void load_rays(__global const number *source, size_t step, rays *r, hits 
     const real nought = r->origin.x * zero + r->origin.y * zero + r->origin.z * zero +
                         r->direction.x * zero + r->direction.y * zero + r->direction.z * zero;
     const real tmax = LOAD_REAL(source + RT_RAY_TMAX * step);
-    h->t = SELECT((real)-INFINITY, tmax, MASK(nought == (real)0.0f) & MASK(tmax > r->tmin));
+    mask lawful = MASK(nought == (real)0.0f) & MASK(tmax > r->tmin);
+#if RT_WATERTIGHT
+    lawful = lawful & set_up_shear(r);
+#endif
+    h->t = SELECT((real)-INFINITY, tmax, lawful);
     h->index = (mask)RT_MISS;
     h->slot = (mask)RT_MISS;
     h->u = (real)0.0f;
@@ -56,6 +60,9 @@ INLINE void load_packet(__global const number *source, size_t step, packet *p)
 {
     for (int g = 0; g < RT_GROUPS; ++g)
         load_rays(source + g * RT_LANES, step, &p->r[g], &p->h[g]);
+#if RT_WATERTIGHT
+    p->axis = common_axis(p);
+#endif
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void

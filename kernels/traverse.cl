@@ -112,8 +112,9 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
     for (int g = 0; g < RT_GROUPS; ++g) {
         real enter, leave;
         const rays *r = &p->r[g];
-        box_interval(r, (real)n->lo_x[c], (real)n->hi_x[c], (real)n->lo_y[c], (real)n->hi_y[c],
-                     (real)n->lo_z[c], (real)n->hi_z[c], &enter, &leave);
+        const real3 lo = SPLAT3(n->lo_x[c], n->lo_y[c], n->lo_z[c]);
+        const real3 hi = SPLAT3(n->hi_x[c], n->hi_y[c], n->hi_z[c]);
+        box_interval(r->origin, r->inverse, lo, hi, &enter, &leave);
         const mask on = alive(r, &p->h[g]) & MASK(enter <= leave) & MASK(leave >= r->tmin) &
                         MASK(enter <= p->h[g].t);
         groups |= ANY(on) ? 1 << g : 0;
@@ -167,7 +168,7 @@ INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
         narrow(&b->z, n->lo_z, n->hi_z, &enter, &leave);
         /* The margin of box_interval, and empty boxes out. */
         const mask16 meets =
-            (enter <= leave * RT_SLAB_MARGIN) & (LOAD_16(n->lo_x) <= LOAD_16(n->hi_x));
+            (enter <= leave * SLAB_MARGIN) & (LOAD_16(n->lo_x) <= LOAD_16(n->hi_x));
         top = push_children(meets, enter, node * RT_WIDTH, codes, enters, top);
         node = -1;
         while (top > 0 && node < 0) {
@@ -257,9 +258,20 @@ INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int
 #endif
 #if RT_TRIANGLES
     __global const rt_triangle_block *t = w->triangles + block;
-    const real3 a = {BLOCK_LOAD(t->ax), BLOCK_LOAD(t->ay), BLOCK_LOAD(t->az)};
-    const real3 b = {BLOCK_LOAD(t->bx), BLOCK_LOAD(t->by), BLOCK_LOAD(t->bz)};
-    const real3 c = {BLOCK_LOAD(t->cx), BLOCK_LOAD(t->cy), BLOCK_LOAD(t->cz)};
+#if RT_WATERTIGHT
+    const int axis = (int)LANE_OF_MASK(r->axis, 0);
+    __global const float *first = (__global const float *)t + FIRST_OF(axis) * RT_BLOCK_PRIMITIVES;
+    __global const float *second =
+        (__global const float *)t + SECOND_OF(axis) * RT_BLOCK_PRIMITIVES;
+    __global const float *third = (__global const float *)t + THIRD_OF(axis) * RT_BLOCK_PRIMITIVES;
+#else
+    __global const float *first = t->ax, *second = t->ay, *third = t->az;
+#endif
+    const real3 a = {BLOCK_LOAD(first), BLOCK_LOAD(second), BLOCK_LOAD(third)};
+    const real3 b = {BLOCK_LOAD(first + CORNER), BLOCK_LOAD(second + CORNER),
+                     BLOCK_LOAD(third + CORNER)};
+    const real3 c = {BLOCK_LOAD(first + 2 * CORNER), BLOCK_LOAD(second + 2 * CORNER),
+                     BLOCK_LOAD(third + 2 * CORNER)};
     __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
     if (meet_triangles(r, a, b, c, BLOCK_LANES, &m))
         take_best(h, &m, BLOCK_LOAD_INDEX(order), block, any);
@@ -298,7 +310,7 @@ INLINE void walk_one(const rays *r, number tmin, hit *h, const world *w, const i
         narrow_one(ox, ix, n->lo_x, n->hi_x, &enter, &leave);
         narrow_one(oy, iy, n->lo_y, n->hi_y, &enter, &leave);
         narrow_one(oz, iz, n->lo_z, n->hi_z, &enter, &leave);
-        int left = bits_of(enter <= leave * RT_SLAB_MARGIN);
+        int left = bits_of(enter <= leave * SLAB_MARGIN);
         node = -1;
         if (left) {
             /* The nearest child is followed, the others wait: sorting them costs more than it
@@ -338,6 +350,13 @@ INLINE void spread_ray(const rays *from, int k, rays *r)
 #if RT_SPHERES
     r->dd = (real)LANE(from->dd, k);
     r->inv_dd = (real)LANE(from->inv_dd, k);
+#endif
+#if RT_WATERTIGHT
+    r->axis = (mask)LANE_OF_MASK(from->axis, k);
+    r->from = SPLAT3(LANE(from->from.x, k), LANE(from->from.y, k), LANE(from->from.z, k));
+    r->onward = SPLAT3(LANE(from->onward.x, k), LANE(from->onward.y, k), LANE(from->onward.z, k));
+    r->sx = (real)LANE(from->sx, k);
+    r->sy = (real)LANE(from->sy, k);
 #endif
 }
 

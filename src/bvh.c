@@ -31,11 +31,16 @@ typedef struct builder {
     subtree subtrees[RT_WIDTH];
 } builder;
 
-static inline void widen(float *lo, float *hi)
+static inline void widen(float lo[3], float hi[3])
 {
-    const float margin = (fabsf(*lo) + fabsf(*hi)) * RT_BOX_MARGIN;
-    *lo -= margin;
-    *hi += margin;
+    const float x = fabsf(lo[0]) + fabsf(hi[0]), y = fabsf(lo[1]) + fabsf(hi[1]),
+                z = fabsf(lo[2]) + fabsf(hi[2]);
+    const float xy = x > y ? x : y;
+    const float margin = (xy > z ? xy : z) * RT_BOX_MARGIN;
+    for (int i = 0; i < 3; ++i) {
+        lo[i] -= margin;
+        hi[i] += margin;
+    }
 }
 
 void rt_sphere_box(const rt_sphere *s, float lo[3], float hi[3])
@@ -44,8 +49,8 @@ void rt_sphere_box(const rt_sphere *s, float lo[3], float hi[3])
     for (int i = 0; i < 3; ++i) {
         lo[i] = c[i] - s->radius;
         hi[i] = c[i] + s->radius;
-        widen(&lo[i], &hi[i]);
     }
+    widen(lo, hi);
 }
 
 void rt_triangle_box(const rt_triangle *t, float lo[3], float hi[3])
@@ -56,8 +61,8 @@ void rt_triangle_box(const rt_triangle *t, float lo[3], float hi[3])
         const float low = a[i] < b[i] ? a[i] : b[i], high = a[i] > b[i] ? a[i] : b[i];
         lo[i] = low < c[i] ? low : c[i];
         hi[i] = high > c[i] ? high : c[i];
-        widen(&lo[i], &hi[i]);
     }
+    widen(lo, hi);
 }
 
 #define CHUNK ((size_t)16384)

@@ -22,6 +22,7 @@ typedef double real;
 #define REAL_MAX DBL_MAX
 #define LDEXP ldexp
 #define ILOGB ilogb
+#define HALF_ULP 0x1p-53
 #else
 typedef float real;
 #define NAME(verb) rt_scalar_float_##verb
@@ -34,6 +35,7 @@ typedef float real;
 #define REAL_MAX FLT_MAX
 #define LDEXP ldexpf
 #define ILOGB ilogbf
+#define HALF_ULP 0x1p-24f
 #endif
 
 typedef struct vec {
@@ -135,6 +137,21 @@ void NAME(meet)(const rt_scene *scene, const ray *r, int primitive, hit *best);
 void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi);
 /* The ray's part in a box, as t from `enter` to `leave`; empty where enter > leave. Monotone in the
  * box, rounding included. */
-void NAME(part_in_box)(const ray *r, vec lo, vec hi, real *enter, real *leave);
+void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real *enter,
+                       real *leave);
+
+/* scalar_watertight.c: the robust test of a triangle; false for a miss. */
+bool NAME(meet_watertight)(const rt_triangle *triangle, const ray *r, int cull, hit *h);
+
+/* Whether the scene's level asks for the robust tests; in double they are the only ones. */
+static inline bool is_robust(const rt_scene *scene)
+{
+#ifdef RT_SCALAR_DOUBLE
+    (void)scene;
+    return true;
+#else
+    return scene->accuracy >= RT_ACCURACY_ROBUST;
+#endif
+}
 
 #endif

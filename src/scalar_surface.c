@@ -6,11 +6,6 @@
  * (kernels/surface.cl says which roundings those are). */
 #include "scalar_effects.h"
 
-#ifdef RT_SCALAR_DOUBLE
-#define HALF_ULP 0x1p-53
-#else
-#define HALF_ULP 0x1p-24f
-#endif
 #define START_BOUND (8 * HALF_ULP)
 #define START_DRAW (32 * HALF_ULP)
 

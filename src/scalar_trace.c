@@ -42,40 +42,57 @@ static void slab(real origin, real direction, real lo, real hi, real *enter, rea
     *leave = far < *leave ? far : *leave;
 }
 
-void NAME(part_in_box)(const ray *r, vec lo, vec hi, real *enter, real *leave)
+void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real *enter,
+                       real *leave)
 {
     *enter = -INFINITY;
     *leave = INFINITY;
     slab(r->origin.x, r->direction.x, lo.x, hi.x, enter, leave);
     slab(r->origin.y, r->direction.y, lo.y, hi.y, enter, leave);
     slab(r->origin.z, r->direction.z, lo.z, hi.z, enter, leave);
-    *leave = *leave * (real)RT_SLAB_MARGIN;
+    *leave = *leave * (real)(is_robust(scene) ? RT_SLAB_MARGIN_ROBUST : RT_SLAB_MARGIN);
 }
 
-static real margin_of(real lo, real hi)
+/* One axis of a primitive's box, its margin still to come. */
+typedef struct extent {
+    float lo, hi;
+} extent;
+
+static extent around(float center, float radius)
 {
-    return (FABS(lo) + FABS(hi)) * (real)RT_BOX_MARGIN;
+    return (extent){center - radius, center + radius};
 }
 
+static extent over(float a, float b, float c)
+{
+    return (extent){fminf(a, fminf(b, c)), fmaxf(a, fmaxf(b, c))};
+}
+
+static float margin_of(extent e)
+{
+    return (fabsf(e.lo) + fabsf(e.hi)) * RT_BOX_MARGIN;
+}
+
+/* In float also where the rest is in double: that is what primitives are made of. */
 void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi)
 {
+    extent x, y, z;
     if (primitive < (int)scene->sphere_count) {
         const rt_sphere *s = &scene->spheres[primitive];
-        const real radius = (real)s->radius;
-        *lo = minus(vec_of(s->cx, s->cy, s->cz), (vec){radius, radius, radius});
-        *hi = minus(vec_of(s->cx, s->cy, s->cz), (vec){-radius, -radius, -radius});
+        x = around(s->cx, s->radius);
+        y = around(s->cy, s->radius);
+        z = around(s->cz, s->radius);
     } else {
         const rt_triangle *t = &scene->triangles[primitive - (int)scene->sphere_count];
-        const vec a = vec_of(t->ax, t->ay, t->az), b = vec_of(t->bx, t->by, t->bz),
-                  c = vec_of(t->cx, t->cy, t->cz);
-        *lo =
-            (vec){FMIN(a.x, FMIN(b.x, c.x)), FMIN(a.y, FMIN(b.y, c.y)), FMIN(a.z, FMIN(b.z, c.z))};
-        *hi =
-            (vec){FMAX(a.x, FMAX(b.x, c.x)), FMAX(a.y, FMAX(b.y, c.y)), FMAX(a.z, FMAX(b.z, c.z))};
+        x = over(t->ax, t->bx, t->cx);
+        y = over(t->ay, t->by, t->cy);
+        z = over(t->az, t->bz, t->cz);
     }
-    const vec margin = {margin_of(lo->x, hi->x), margin_of(lo->y, hi->y), margin_of(lo->z, hi->z)};
-    *lo = minus(*lo, margin);
-    *hi = minus(*hi, times(margin, -1));
+    float mx = margin_of(x), my = margin_of(y), mz = margin_of(z);
+    if (is_robust(scene))
+        mx = my = mz = fmaxf(mx, fmaxf(my, mz));
+    *lo = vec_of(x.lo - mx, y.lo - my, z.lo - mz);
+    *hi = vec_of(x.hi + mx, y.hi + my, z.hi + mz);
 }
 
 /* Takes a hit if it is nearer than the best, or as near and of a lower index. Rounding can put t
@@ -86,7 +103,7 @@ static void take(const rt_scene *scene, const ray *r, hit candidate, hit *best)
     vec lo, hi;
     real enter, leave;
     NAME(box)(scene, candidate.primitive, &lo, &hi);
-    NAME(part_in_box)(r, lo, hi, &enter, &leave);
+    NAME(part_in_box)(scene, r, lo, hi, &enter, &leave);
     if (!(enter <= leave))
         return;
     if (!(candidate.t > enter))
@@ -114,6 +131,12 @@ static void meet_triangle(const rt_scene *scene, const ray *r, int primitive, hi
 {
     const rt_triangle *triangle = &scene->triangles[primitive - (int)scene->sphere_count];
     const int cull = rt_scene_cull_sign(scene);
+    hit watertight = {primitive, 0, 0, 0};
+    if (is_robust(scene)) {
+        if (NAME(meet_watertight)(triangle, r, cull, &watertight))
+            take(scene, r, watertight, best);
+        return;
+    }
     const vec a = vec_of(triangle->ax, triangle->ay, triangle->az);
     const vec e1 = minus(vec_of(triangle->bx, triangle->by, triangle->bz), a);
     const vec e2 = minus(vec_of(triangle->cx, triangle->cy, triangle->cz), a);

@@ -126,10 +126,11 @@ static void try_every_primitive(const scalar_world *w, const ray *r, hit *best)
 }
 
 /* Whether a node can hold a hit that is nearer than `best`, or as near. */
-static bool is_worth(const ray *r, const scalar_node *node, const hit *best, real *enter)
+static bool is_worth(const rt_scene *scene, const ray *r, const scalar_node *node, const hit *best,
+                     real *enter)
 {
     real leave;
-    NAME(part_in_box)(r, node->lo, node->hi, enter, &leave);
+    NAME(part_in_box)(scene, r, node->lo, node->hi, enter, &leave);
     return *enter <= leave && leave >= r->tmin && *enter <= best->t;
 }
 
@@ -137,12 +138,12 @@ static void walk(const scalar_world *w, const ray *r, bool any, hit *best)
 {
     int stack[DEPTH_MAX], top = 0;
     real enter, other;
-    if (is_worth(r, w->nodes, best, &enter))
+    if (is_worth(w->scene, r, w->nodes, best, &enter))
         stack[top++] = 0;
     while (top > 0) {
         const int at = stack[--top];
         const scalar_node *node = &w->nodes[at];
-        if (!is_worth(r, node, best, &enter))
+        if (!is_worth(w->scene, r, node, best, &enter))
             continue;
         if (!node->right) {
             for (int i = 0; i < node->count; ++i)
@@ -151,8 +152,8 @@ static void walk(const scalar_world *w, const ray *r, bool any, hit *best)
                 return;
             continue;
         }
-        const bool left = is_worth(r, &w->nodes[at + 1], best, &enter);
-        const bool right = is_worth(r, &w->nodes[node->right], best, &other);
+        const bool left = is_worth(w->scene, r, &w->nodes[at + 1], best, &enter);
+        const bool right = is_worth(w->scene, r, &w->nodes[node->right], best, &other);
         const bool left_first = enter <= other;
         if (right && left_first)
             stack[top++] = node->right;
@@ -163,12 +164,12 @@ static void walk(const scalar_world *w, const ray *r, bool any, hit *best)
     }
 }
 
-/* A ray with a component that is not finite hits nothing. */
+/* A ray with a component that is not finite, or without a direction, hits nothing. */
 static bool is_lawful(const ray *r)
 {
     const vec o = r->origin, d = r->direction;
     return isfinite(o.x) && isfinite(o.y) && isfinite(o.z) && isfinite(d.x) && isfinite(d.y) &&
-           isfinite(d.z) && r->tmax > r->tmin;
+           isfinite(d.z) && (d.x != 0 || d.y != 0 || d.z != 0) && r->tmax > r->tmin;
 }
 
 static hit find(const scalar_world *w, const ray *r, bool any)

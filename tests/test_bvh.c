@@ -346,7 +346,7 @@ static void a_wrong_walk_is_noticed(void **state)
     (void)state;
     static const char *const mutants[][2] = {
         {"m->t = LESSER(GREATER(m->t, enter), leave);", ""},
-        {"(real)RT_SLAB_MARGIN;", "(real)0.9999f;"},
+        {"(real)SLAB_MARGIN;", "(real)0.9999f;"},
     };
     size_t noticed = 0;
     for (size_t m = 0; m < sizeof mutants / sizeof *mutants; ++m) {

@@ -125,29 +125,41 @@ static void compare(const rt_scene *scene, const fixture *f, int lanes, size_t c
     rt_renderer_free(renderer);
     for (size_t i = 0; i < count; ++i)
         if (memcmp(&f->expected[i], &f->actual[i], sizeof *f->expected) != 0)
-            fail_msg("%d lanes, ray %zu: primitive %d, t %a, u %a, v %a; the scalar path has "
+            fail_msg("%s, %d lanes, ray %zu: primitive %d, t %a, u %a, v %a; the scalar path has "
                      "primitive %d, t %a, u %a, v %a",
-                     lanes, i, f->actual[i].primitive, (double)f->actual[i].t,
-                     (double)f->actual[i].u, (double)f->actual[i].v, f->expected[i].primitive,
-                     (double)f->expected[i].t, (double)f->expected[i].u, (double)f->expected[i].v);
+                     rt_accuracy_name(scene->accuracy), lanes, i, f->actual[i].primitive,
+                     (double)f->actual[i].t, (double)f->actual[i].u, (double)f->actual[i].v,
+                     f->expected[i].primitive, (double)f->expected[i].t, (double)f->expected[i].u,
+                     (double)f->expected[i].v);
 }
 
-static void kernels_equal_scalar(const fixture *f, uint64_t seed, float size, enum rt_cull cull)
+static void level_equals_scalar(const fixture *f, enum rt_accuracy level, uint64_t seed, float size,
+                                enum rt_cull cull)
 {
     rt_scene scene;
     fill_scene(&scene, seed, size, cull);
+    scene.accuracy = level;
     fill_rays(&scene, seed + 1, size, f->rays);
-    rt_scalar_float_trace(&scene, f->rays, RAYS, f->expected);
+    (level == RT_ACCURACY_DOUBLE ? rt_scalar_double_trace
+                                 : rt_scalar_float_trace)(&scene, f->rays, RAYS, f->expected);
     size_t hits = 0;
     for (int i = 0; i < RAYS; ++i)
         hits += f->expected[i].primitive != RT_MISS;
     /* A set that hits nothing, or that never misses, would prove nothing. */
     assert_true(hits > RAYS / 8 && hits < RAYS - RAYS / 16);
-    compare(&scene, f, 1, RAYS);
-    compare(&scene, f, 4, RAYS);
-    compare(&scene, f, 8, RAYS);
-    compare(&scene, f, 16, RAYS);
+    for (int lanes = 1; lanes <= 16; lanes *= lanes == 1 ? 4 : 2)
+        compare(&scene, f, lanes, RAYS);
+    test_use_tree(false);
+    compare(&scene, f, 0, RAYS);
+    test_use_tree(true);
     rt_scene_clear(&scene);
+}
+
+static void kernels_equal_scalar(const fixture *f, uint64_t seed, float size, enum rt_cull cull)
+{
+    const int last = test_device()->has_fp64 ? RT_ACCURACY_DOUBLE : RT_ACCURACY_ROBUST;
+    for (int level = RT_ACCURACY_STANDARD; level <= last; ++level)
+        level_equals_scalar(f, (enum rt_accuracy)level, seed, size, cull);
 }
 
 static void at_unit_scale(void **state)
