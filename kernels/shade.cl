@@ -8,9 +8,9 @@
 
 /* x to a whole power by repeated squaring, lowest bit first: the same bits on every device. A
  * library's pow takes longer than tracing the ray. 0 to the power of 0 is 1. */
-INLINE float power_whole(float x, int exponent)
+INLINE number power_whole(number x, int exponent)
 {
-    float result = 1.0f;
+    number result = 1.0f;
 #pragma unroll
     for (int bit = 0; bit < RT_SHININESS_BITS; ++bit) {
         result = (exponent >> bit) & 1 ? result * x : result;
@@ -19,9 +19,9 @@ INLINE float power_whole(float x, int exponent)
     return result;
 }
 
-INLINE float highlight(float cosine, int exponent, float shininess)
+INLINE number highlight(number cosine, int exponent, number shininess)
 {
-    const float whole = power_whole(cosine, exponent);
+    const number whole = power_whole(cosine, exponent);
 #if RT_SHININESS_FRACTION
     /* 3 ulp each for log2 and exp2: at most 1e-5 of the result wherever it is above 1e-6. */
     return exponent >= 0 ? whole : exp2(shininess * log2(cosine));

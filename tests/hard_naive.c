@@ -157,12 +157,13 @@ static void trace_last(const rt_scene *scene, const rt_ray *rays, size_t count, 
     nearest(scene, rays, count, hits, moller_plain, true);
 }
 
-static void trace_quadratic(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
+/* The nearer of what there is already and of all spheres. */
+static void nearest_sphere(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits,
+                           bool only_enters)
 {
     for (size_t i = 0; i < count; ++i) {
         const rt_ray *r = &rays[i];
         const v3 d = of(r->direction);
-        hits[i] = (rt_hit){RT_MISS, INFINITY, 0.0f, 0.0f};
         for (size_t k = 0; k < scene->sphere_count; ++k) {
             const rt_sphere *s = &scene->spheres[k];
             const v3 f = minus(of(r->origin), (v3){s->cx, s->cy, s->cz});
@@ -173,11 +174,23 @@ static void trace_quadratic(const rt_scene *scene, const rt_ray *rays, size_t co
                 continue;
             const float root = sqrtf(discriminant);
             const float near = (-b - root) / (2.0f * a), far = (-b + root) / (2.0f * a);
-            const float t = near > r->tmin ? near : far;
+            const float t = near > r->tmin || only_enters ? near : far;
             if (t > r->tmin && t < r->tmax && t < hits[i].t)
                 hits[i] = (rt_hit){(int32_t)k, t, 0.0f, 0.0f};
         }
     }
+}
+
+static void trace_quadratic(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
+{
+    nearest(scene, rays, count, hits, moller_plain, false);
+    nearest_sphere(scene, rays, count, hits, false);
+}
+
+static void trace_entering(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
+{
+    nearest(scene, rays, count, hits, moller_plain, false);
+    nearest_sphere(scene, rays, count, hits, true);
 }
 
 const hard_naive hard_naive_epsilon = {.name = "determinant above 1e-6", .trace = trace_epsilon};
@@ -187,3 +200,4 @@ const hard_naive hard_naive_woop = {.name = "Woop contracted", .trace = trace_wo
 const hard_naive hard_naive_quadratic = {.name = "b*b - 4ac", .trace = trace_quadratic};
 const hard_naive hard_naive_slab = {.name = "slabs without margin", .trace = trace_slab};
 const hard_naive hard_naive_last = {.name = "last of equals", .trace = trace_last};
+const hard_naive hard_naive_entering = {.name = "near roots only", .trace = trace_entering};

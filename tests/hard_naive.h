@@ -15,6 +15,8 @@ extern const hard_naive hard_naive_inside;
 extern const hard_naive hard_naive_woop;
 /* b*b - 4ac, as one learns it. */
 extern const hard_naive hard_naive_quadratic;
+/* b*b - 4ac with the nearer root alone, and triangles. */
+extern const hard_naive hard_naive_entering;
 /* Moller-Trumbore behind a slab test of each triangle's box without any margin. */
 extern const hard_naive hard_naive_slab;
 /* The same, taking the last of equal hits. */
