@@ -30,6 +30,13 @@ typedef RT_PASTE(RT_NUMBER, 16) number16;
 typedef RT_PASTE(RT_BITS, 16) mask16;
 #define LOAD_16(p) RT_PASTE(RT_PASTE(convert_, RT_NUMBER), 16)(vload16(0, p))
 
+/* Extensions of clang, which most runtimes for CPUs compile by. */
+#ifdef __has_builtin
+#define HAS_BUILTIN(name) __has_builtin(name)
+#else
+#define HAS_BUILTIN(name) 0
+#endif
+
 #if RT_LANES == 1
 typedef number real;
 typedef RT_BITS mask;
@@ -51,15 +58,20 @@ typedef RT_PASTE(RT_BITS, RT_LANES) mask;
 #define STORE_REAL(v, p) RT_PASTE(vstore, RT_LANES)(v, 0, p)
 #define STORE_INDEX(v, p) RT_PASTE(vstore, RT_LANES)(RT_PASTE(convert_int, RT_LANES)(v), 0, p)
 #define MASK(condition) (condition)
+#if HAS_BUILTIN(__builtin_reduce_or)
+#define ANY(m) (__builtin_reduce_or(m) != 0)
+#else
 #define ANY(m) RT_PASTE(lanes_or, RT_LANES)(RT_PASTE(convert_char, RT_LANES)(m))
+#endif
 #define SELECT(off, on, m) select(off, on, m)
 #endif
 
 /* Functions of the trace stage are parts of one loop: as calls they would spill every vector. */
 #define INLINE __attribute__((always_inline))
 
-/* Whether a lane is on. Written out because PoCL's any() tests lane after lane with a branch each;
- * as bytes the lanes fit into one or two integers. */
+/* Whether a lane is on, where the compiler has no reduction of its own, which is one instruction.
+ * Written out because PoCL's any() tests lane after lane with a branch each; as bytes the lanes fit
+ * into one or two integers. */
 INLINE int lanes_or4(char4 m)
 {
     return as_int(m) != 0;

@@ -94,9 +94,17 @@ INLINE void narrow(const bundle_axis *a, __global const float *lo, __global cons
     *leave = select(*leave, far, far < *leave);
 }
 
-/* The lanes of a mask as bits, lane 0 lowest. Bytes of ones and zeros: each keeps the bit of its
- * place, and a multiplication adds the eight up in the top byte. Little-endian, as every OpenCL
- * device there is. */
+/* The lanes of a mask as bits, lane 0 lowest. AVX-512 has an instruction for it, which rays that
+ * walk alone are a tenth faster by. Elsewhere by way of bytes of ones and zeros: each keeps the bit
+ * of its place, and a multiplication adds the eight up in the top byte. Little-endian, as every
+ * OpenCL device there is. */
+#if defined(__AVX512DQ__) && HAS_BUILTIN(__builtin_ia32_cvtd2mask512) && RT_ACCURACY != 3
+typedef int avx_mask __attribute__((vector_size(64)));
+INLINE int bits_of(mask16 m)
+{
+    return (ushort)__builtin_ia32_cvtd2mask512((avx_mask)m);
+}
+#else
 INLINE int bits_of(mask16 m)
 {
     const ulong2 v = as_ulong2(convert_char16(m));
@@ -104,6 +112,7 @@ INLINE int bits_of(mask16 m)
     const ulong y = (v.y & 0x8040201008040201UL) * 0x0101010101010101UL;
     return (int)(x >> 56) | (int)(y >> 48 & 0xff00);
 }
+#endif
 
 /* Groups of which some ray meets the box of a node's child in time. */
 INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
@@ -122,7 +131,8 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
     return groups;
 }
 
-#define LOWEST_BIT(bits) ((int)popcount(((bits) & -(bits)) - 1))
+/* In the form that compilers know for a count of trailing zeros. */
+#define LOWEST_BIT(bits) ((int)popcount(~(bits) & ((bits)-1)))
 
 /* Puts the children that a node's test has left onto the stack, the nearest on top. */
 INLINE int push_children(mask16 meets, number16 enter, int code, int *codes, number *enters,
