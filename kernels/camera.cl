@@ -38,10 +38,14 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     /* Whole numbers, exact in float; the pixel size is in the frame's vectors. */
     number across = (number)(2 * (tile.x + p.column) + 1 - frame.width);
     number upward = (number)(frame.height - 1 - 2 * (tile.y + p.row));
+#if RT_ANTIALIAS || RT_LENS
+    strata set;
+    make_strata(samples, &set);
+#endif
 #if RT_ANTIALIAS
     if (ON(ANTIALIAS)) {
         number u, v;
-        stratified(turn.sample, samples,
+        stratified(&set, turn.sample,
                    seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_PIXEL),
                    RT_DIMENSION_PIXEL, &u, &v);
         const number dx = filtered(u, flags & RT_FLAG_TENT);
@@ -59,9 +63,8 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
 #if RT_LENS
     if (ON(LENS)) {
         number u, v, dx, dy;
-        stratified(turn.sample, samples,
-                   seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_LENS), RT_DIMENSION_LENS,
-                   &u, &v);
+        stratified(&set, turn.sample, seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_LENS),
+                   RT_DIMENSION_LENS, &u, &v);
         disk(u, v, &dx, &dy);
         const vec3 lens_right = {frame.lens_right_x, frame.lens_right_y, frame.lens_right_z};
         const vec3 lens_up = {frame.lens_up_x, frame.lens_up_y, frame.lens_up_z};

@@ -107,6 +107,9 @@
 #define ON(effect) RT_##effect
 #endif
 
+/* Rays that a work-item of the stages beside trace looks after: a block where vectors are wide. */
+#define RT_ITEM_RAYS (RT_LANES > 1 ? RT_BLOCK_RAYS : 1)
+
 /* What follows from the effects: rays that go on from where others end, colours that are sums, rays
  * that ask whether the way is free, random points. */
 #define RT_NEXT (RT_REFLECT || RT_REFRACT)
@@ -123,6 +126,14 @@
 #endif
 #if RT_PROBES && !RT_OCCLUSION
 #error "RT_SHADOWS and RT_AMBIENT_OCCLUSION need RT_OCCLUSION"
+#endif
+
+/* The number of lights where they are few, so that the loop over them is none; -1: an argument. */
+#ifndef RT_LIGHTS
+#define RT_LIGHTS -1
+#endif
+#if RT_LIGHTS < -1 || RT_LIGHTS > 4
+#error "RT_LIGHTS must be from -1 to 4"
 #endif
 
 /* Whether the scene has spheres, and whether it has triangles. */

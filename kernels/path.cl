@@ -131,31 +131,88 @@ INLINE int send_mirrored(vec3 d, const surface *s, number part, const next_ray *
         return 0;
     mirror_image(d, s, &r->direction);
     /* Not by the direction: at a tangent its sign is rounding's. */
-    leave(s, s->facing, &r->origin);
+    leave(s, &s->facing, &r->origin);
     return 1;
 }
 
 #if RT_REFRACT
 /* `part` is what is left for the mirror ray: what Fresnel's law says, and what the material itself
  * mirrors. */
-INLINE int send_refracted(vec3 d, const surface *s, const rt_material m, int material,
+INLINE int send_refracted(vec3 d, const surface *s, __global const rt_material *m, int material,
                           const next_ray *from, next_ray *r, number *part)
 {
     number reflected = 1.0f;
     *r = *from;
-    *part = m.reflect;
-    if (!(m.transmit > 0.0f))
+    *part = m->reflect;
+    if (!(m->transmit > 0.0f))
         return 0;
-    const int through = refracted(d, s, (number)m.ior, &r->direction, &reflected);
-    *part = fma((number)m.transmit, reflected, (number)m.reflect);
-    r->weight = from->weight * ((number)m.transmit * ((number)1.0f - reflected));
+    const int through = refracted(d, s, (number)m->ior, &r->direction, &reflected);
+    *part = fma((number)m->transmit, reflected, (number)m->reflect);
+    r->weight = from->weight * ((number)m->transmit * ((number)1.0f - reflected));
     r->bounce = from->bounce + 1;
     r->medium = s->outside ? material : RT_OUTSIDE;
     r->is_refracted = 1;
     if (!through || !(r->weight >= (number)RT_WEIGHT_LEAST))
         return 0;
-    leave(s, SCALE(s->facing, (number)-1.0f), &r->origin);
+    const vec3 behind = SCALE(s->facing, (number)-1.0f);
+    leave(s, &behind, &r->origin);
     return 1;
 }
 #endif
+
+/* The stage after shade where rays go on: each ray's next one, or the end of it. */
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
+        const int depth, __global const int *home, __global number *paths, __global int *marks,
+        __global number *next_rays, __global int *next_home
+#if RT_REFRACT
+        ,
+        __global number *waiting, __global int *waiting_marks
+#endif
+)
+{
+    const size_t i = get_global_id(0);
+    const size_t step = (size_t)stride;
+    const int is_alive = rays[RT_RAY_TMIN * step + i] < rays[RT_RAY_TMAX * step + i];
+    const int slot = home[i];
+    next_ray from, r;
+    from.weight = paths[RT_PATH_WEIGHT * step + (size_t)slot];
+    from.tint = LOAD3(paths + RT_PATH_TINT_R * step, step, (size_t)slot);
+    from.bounce = marks[RT_MARK_BOUNCE * step + (size_t)slot];
+    from.medium = marks[RT_MARK_MEDIUM * step + (size_t)slot];
+    int has = 0;
+#if RT_SPHERES || RT_TRIANGLES
+    const int index = hit_index[i];
+    if (is_alive && index != RT_MISS && from.bounce < depth) {
+        const traced w = TRACED;
+        const vec3 direction = LOAD3(rays + RT_RAY_DX * step, step, i);
+        surface s;
+        surface_of(&w, i, index, direction, &s);
+        const int material = material_of[index];
+        __global const rt_material *m = materials + material;
+        number part = m->reflect;
+#if RT_REFRACT
+        next_ray aside;
+        has = send_refracted(direction, &s, m, material, &from, &r, &part);
+        if (send_mirrored(direction, &s, part, &from, has ? &aside : &r)) {
+            if (has)
+                push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
+            has = 1;
+        }
+#else
+        has = send_mirrored(direction, &s, part, &from, &r);
+#endif
+    }
+#endif
+#if RT_REFRACT
+    if (is_alive && !has)
+        has = pop_waiting(waiting, waiting_marks, marks, step, slot, &r);
+#endif
+    if (has) {
+        store_next(next_rays, next_home, step, i, slot, paths, marks, &r);
+    } else {
+        next_rays[RT_RAY_TMIN * step + i] = 0.0f;
+        next_rays[RT_RAY_TMAX * step + i] = -1.0f;
+    }
+}
 #endif

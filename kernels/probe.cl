@@ -3,136 +3,205 @@
  * sample, each in the order of the rays that they are for. */
 
 #if RT_PROBES
-/* A probe; without `on` one that ends before it begins. */
-INLINE void store_probe(__global number *probes, size_t step, size_t j, int on, vec3 origin,
-                        vec3 direction, number tmax)
+/* Probe j; one whose tmax is below 0 ends before it begins. Pointers, because a struct that is
+ * passed by value comes as a small vector on some machines, and that ends vectorising. */
+INLINE void store_probe(__global number *probes, size_t step, size_t j, const vec3 *origin,
+                        const vec3 *direction, number tmax)
 {
-    STORE3(origin, probes + RT_RAY_OX * step, step, j);
-    STORE3(direction, probes + RT_RAY_DX * step, step, j);
+    STORE3(*origin, probes + RT_RAY_OX * step, step, j);
+    STORE3(*direction, probes + RT_RAY_DX * step, step, j);
     probes[RT_RAY_TMIN * step + j] = 0.0f;
-    probes[RT_RAY_TMAX * step + j] = on ? tmax : (number)-1.0f;
+    probes[RT_RAY_TMAX * step + j] = tmax;
+}
+
+INLINE void store_no_probe(__global number *probes, size_t step, size_t j)
+{
+    const vec3 nowhere = {0.0f, 0.0f, 0.0f}, ahead = {0.0f, 0.0f, 1.0f};
+    store_probe(probes, step, j, &nowhere, &ahead, -1.0f);
 }
 
 #if RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION
-/* Sample `sample` of `count` as a point on the unit disk. */
-INLINE void disk_sample(rt_tile tile, int slot, int bounce, const rt_turn turn, uint base,
-                        int sample, int count, number *x, number *y)
+/* The samples that a launch is for. */
+typedef struct probe_set {
+    strata cells;
+    rt_tile tile;
+    uint dimension;
+    int sample;       /* of the set */
+    int pixel_sample; /* of the pixel */
+#if RT_NEXT
+    __global const int *home;
+    __global const int *marks;
+#endif
+} probe_set;
+
+/* The set's sample for ray i as a point on the unit disk. */
+INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, number *y)
 {
-    const pixel p = slot_pixel(tile, slot);
-    const uint dimension = RT_DIMENSION(base, bounce, turn.sample);
+#if RT_NEXT
+    const int slot = p->home[i];
+    const int bounce = p->marks[RT_MARK_BOUNCE * step + (size_t)slot];
+#else
+    const int slot = (int)i, bounce = 0;
+#endif
+    const pixel at = slot_pixel(p->tile, slot);
+    const uint dimension = RT_DIMENSION(p->dimension, bounce, p->pixel_sample);
     number u, v;
-    stratified(sample, count, seed_of(tile.x + p.column, tile.y + p.row, dimension), dimension, &u,
-               &v);
+    stratified(&p->cells, p->sample, seed_of(p->tile.x + at.column, p->tile.y + at.row, dimension),
+               dimension, &u, &v);
     disk(u, v, x, y);
 }
+
+#if RT_NEXT
+#define PROBE_SET_PARAMETERS const rt_tile tile, __global const int *home, __global const int *marks
+#define PROBE_SET(base, turn)                                                                      \
+    {                                                                                              \
+        .tile = tile, .dimension = (base), .sample = (turn).first + nth,                           \
+        .pixel_sample = (turn).sample, .home = home, .marks = marks                                \
+    }
+#else
+#define PROBE_SET_PARAMETERS const rt_tile tile
+#define PROBE_SET(base, turn)                                                                      \
+    {                                                                                              \
+        .tile = tile, .dimension = (base), .sample = (turn).first + nth,                           \
+        .pixel_sample = (turn).sample                                                              \
+    }
 #endif
 #endif
 
-#if RT_NEXT
-#define WAY_PARAMETERS , __global const int *home, __global const int *marks
-#define SLOT_OF(i) home[i]
-#define BOUNCE_OF(slot) marks[RT_MARK_BOUNCE * step + (size_t)(slot)]
-#else
-#define WAY_PARAMETERS
-#define SLOT_OF(i) (int)(i)
-#define BOUNCE_OF(slot) 0
+/* A work-item's first ray, and which of the launch's samples its probes are. */
+#define PROBE_ITEM(turn)                                                                           \
+    const int items = (turn).rays / RT_ITEM_RAYS;                                                  \
+    const int nth = (int)get_global_id(0) / items;                                                 \
+    const size_t first = (size_t)((int)get_global_id(0) % items) * RT_ITEM_RAYS;                   \
+    const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS
 #endif
 
 #if RT_SHADOWS
 /* How much of the way to a light a probe goes: a part of 2^-12 is left out. */
 #define RT_LIGHT_REACH (1.0f - 0x1p-12f)
 
-/* Probes from the hits to a light. They start on the light's side of the surface. */
-__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+/* A probe from the hit of ray i to a light; it starts on the light's side of the surface. */
+INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *light,
+#if RT_SHADOWS == 2
+                         const probe_set *set,
+#endif
+                         __global number *probes, size_t j)
+{
+    const size_t step = w->step;
+    const int index = w->hit_index[i];
+    const int is_hit = index != RT_MISS;
+    vec3 origin = {0.0f, 0.0f, 0.0f}, l = {0.0f, 0.0f, 1.0f};
+    number tmax = -1.0f;
+#if RT_SPHERES || RT_TRIANGLES
+    const vec3 direction = LOAD3(w->rays + RT_RAY_DX * step, step, i);
+    surface s;
+    surface_of(w, i, is_hit ? index : 0, direction, &s);
+    vec3 place = {light->x, light->y, light->z};
+    const number away = -light->w;
+    l = ADD_SCALED(s.point, away, place);
+    make_unit(&l);
+    const int on = is_hit & (isfinite(l.x) != 0);
+    leave(&s, &l, &origin);
+#if RT_SHADOWS == 2
+    if (light->radius > 0.0f) {
+        number x, y;
+        disk_sample(set, step, i, &x, &y);
+        vec3 t1, t2;
+        frame_about(l, &t1, &t2);
+        const number right = light->radius * x, up = light->radius * y;
+        const vec3 beside = ADD_SCALED(t1, right, place);
+        place = ADD_SCALED(t2, up, beside);
+    }
+#endif
+    const int is_point = light->w != 0.0f;
+    const vec3 to = SUB(vec3, place, origin);
+    vec3 aim = to;
+    make_unit(&aim);
+    l.x = is_point ? aim.x : l.x;
+    l.y = is_point ? aim.y : l.y;
+    l.z = is_point ? aim.z : l.z;
+    tmax = is_point ? DOT(to, aim) * (number)RT_LIGHT_REACH : (number)INFINITY;
+    tmax = on ? tmax : (number)-1.0f;
+#endif
+    store_probe(probes, step, j, &origin, &l, tmax);
+}
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *lights,
                __global number *probes
 #if RT_SHADOWS == 2
                ,
-               const rt_tile tile WAY_PARAMETERS
+               PROBE_SET_PARAMETERS
 #endif
 )
 {
-    const size_t j = get_global_id(0);
-    const size_t step = (size_t)stride;
-    const size_t i = j % (size_t)turn.rays;
-    const int index = hit_index[i];
-    vec3 origin = {0.0f, 0.0f, 0.0f}, l = {0.0f, 0.0f, 1.0f};
-    number tmax = INFINITY;
-    int on = index != RT_MISS;
-#if RT_SPHERES || RT_TRIANGLES
-    if (on) {
-        const traced w = TRACED;
-        const vec3 direction = LOAD3(rays + RT_RAY_DX * step, step, i);
-        surface s;
-        surface_of(&w, i, index, direction, &s);
-        const rt_light light = lights[turn.light];
-        const number away = -light.w;
-        vec3 place = {light.x, light.y, light.z};
-        l = ADD_SCALED(s.point, away, place);
-        make_unit(&l);
-        on = isfinite(l.x);
-        leave(&s, l, &origin);
-        if (light.w != 0.0f) {
+    const traced w = TRACED;
+    __global const rt_light *light = lights + turn.light;
+    PROBE_ITEM(turn);
 #if RT_SHADOWS == 2
-            if (light.radius > 0.0f) {
-                number x, y;
-                const int slot = SLOT_OF(i);
-                disk_sample(tile, slot, BOUNCE_OF(slot), turn,
-                            RT_DIMENSION_LIGHT + (uint)turn.light,
-                            turn.first + (int)(j / (size_t)turn.rays), light.samples, &x, &y);
-                vec3 t1, t2;
-                frame_about(l, &t1, &t2);
-                const number right = (number)light.radius * x, up = (number)light.radius * y;
-                const vec3 beside = ADD_SCALED(t1, right, place);
-                place = ADD_SCALED(t2, up, beside);
-            }
+    probe_set set = PROBE_SET(RT_DIMENSION_LIGHT + (uint)turn.light, turn);
+    make_strata(light->samples, &set.cells);
 #endif
-            const vec3 to = SUB(vec3, place, origin);
-            l = to;
-            make_unit(&l);
-            tmax = DOT(to, l) * (number)RT_LIGHT_REACH;
-        }
+    if (!any_hit(hit_index, first)) {
+        EACH_RAY(k)
+        store_no_probe(probes, w.step, first_probe + k);
+        return;
     }
+    EACH_RAY(k)
+    shadow_probe(&w, first + k, light,
+#if RT_SHADOWS == 2
+                 &set,
 #endif
-    store_probe(probes, step, j, on, origin, l, tmax);
+                 probes, first_probe + k);
 }
 #endif
 
 #if RT_AMBIENT_OCCLUSION
-/* Probes from the hits into the half space above them, more of them straight up than aside
+/* A probe from the hit of ray i into the half space above it, more of them straight up than aside
  * (Malley's method), so that each stands for as much light. */
-__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
-                __global number *probes, const rt_tile tile WAY_PARAMETERS)
+INLINE void ambient_probe(const traced *w, size_t i, number distance, const probe_set *set,
+                          __global number *probes, size_t j)
 {
-    const size_t j = get_global_id(0);
-    const size_t step = (size_t)stride;
-    const size_t i = j % (size_t)turn.rays;
-    const int index = hit_index[i];
+    const size_t step = w->step;
+    const int index = w->hit_index[i];
+    const int is_hit = index != RT_MISS;
     vec3 origin = {0.0f, 0.0f, 0.0f}, out = {0.0f, 0.0f, 1.0f};
-    int on = index != RT_MISS;
+    int on = 0;
 #if RT_SPHERES || RT_TRIANGLES
-    if (on) {
-        const traced w = TRACED;
-        const vec3 direction = LOAD3(rays + RT_RAY_DX * step, step, i);
-        surface s;
-        surface_of(&w, i, index, direction, &s);
-        number x, y;
-        const int slot = SLOT_OF(i);
-        disk_sample(tile, slot, BOUNCE_OF(slot), turn, RT_DIMENSION_AMBIENT,
-                    turn.first + (int)(j / (size_t)turn.rays), crevice.samples, &x, &y);
-        const number rest = fma(-x, x, fma(-y, y, (number)1.0f));
-        const number z = ROOT_1(rest > (number)0.0f ? rest : (number)0.0f);
-        vec3 t1, t2;
-        frame_about(s.normal, &t1, &t2);
-        const vec3 right = SCALE(t1, x);
-        const vec3 flat = ADD_SCALED(t2, y, right);
-        out = ADD_SCALED(s.normal, z, flat);
-        on = DOT(out, s.facing) > (number)0.0f; /* below the surface it counts as hindered */
-        leave(&s, out, &origin);
-    }
+    const vec3 direction = LOAD3(w->rays + RT_RAY_DX * step, step, i);
+    surface s;
+    surface_of(w, i, is_hit ? index : 0, direction, &s);
+    number x, y;
+    disk_sample(set, step, i, &x, &y);
+    const number rest = fma(-x, x, fma(-y, y, (number)1.0f));
+    const number z = ROOT_1(rest > (number)0.0f ? rest : (number)0.0f);
+    vec3 t1, t2;
+    frame_about(s.normal, &t1, &t2);
+    const vec3 right = SCALE(t1, x);
+    const vec3 flat = ADD_SCALED(t2, y, right);
+    out = ADD_SCALED(s.normal, z, flat);
+    /* Below the surface it counts as hindered. */
+    on = is_hit & (DOT(out, s.facing) > (number)0.0f);
+    leave(&s, &out, &origin);
 #endif
-    store_probe(probes, step, j, on, origin, out, (number)crevice.distance);
+    store_probe(probes, step, j, &origin, &out, on ? distance : (number)-1.0f);
+}
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
+rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
+                __global number *probes, PROBE_SET_PARAMETERS)
+{
+    const traced w = TRACED;
+    PROBE_ITEM(turn);
+    probe_set set = PROBE_SET(RT_DIMENSION_AMBIENT, turn);
+    make_strata(crevice.samples, &set.cells);
+    if (!any_hit(hit_index, first)) {
+        EACH_RAY(k)
+        store_no_probe(probes, w.step, first_probe + k);
+        return;
+    }
+    EACH_RAY(k)
+    ambient_probe(&w, first + k, (number)crevice.distance, &set, probes, first_probe + k);
 }
 #endif
 

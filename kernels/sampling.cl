@@ -27,26 +27,51 @@ INLINE uint seed_of(int x, int y, uint dimension)
 /* 24 bits as a number in [0, 1). */
 INLINE number unit_interval(uint bits)
 {
-    return (number)(bits >> 8) * (number)0x1p-24f;
+    return (number)(int)(bits >> 8) * (number)0x1p-24f;
 }
 
-/* Sample `s` of `count`, each in a cell of its own of the unit square. Dimensions but the pixel's
- * go through the cells from one of their own, or pixel and lens would move together. */
-INLINE void stratified(int s, int count, uint seed, uint dimension, number *u, number *v)
+/* A set of samples, each in a cell of its own of the unit square; made once for many points. */
+typedef struct strata {
+    int columns, rows;
+    float inverse_columns;
+    uint cells, inverse_cells; /* the latter 2^32 / cells */
+} strata;
+
+INLINE void make_strata(int count, strata *g)
 {
-    int columns = (int)sqrt((float)count);
-    while (columns * columns < count)
-        ++columns;
-    while ((columns - 1) * (columns - 1) >= count)
-        --columns;
-    const int rows = (count + columns - 1) / columns;
-    const uint cells = (uint)(columns * rows);
-    const uint offset = dimension == RT_DIMENSION_PIXEL ? 0 : seed % cells;
-    const uint cell = ((uint)s + offset) % cells;
-    const number across = (number)(cell % (uint)columns);
-    const number down = (number)(cell / (uint)columns);
-    *u = DIVIDE_1(across + unit_interval(scramble(seed + 2 * (uint)s)), (number)columns);
-    *v = DIVIDE_1(down + unit_interval(scramble(seed + 2 * (uint)s + 1)), (number)rows);
+    g->columns = (int)sqrt((float)count);
+    while (g->columns * g->columns < count)
+        ++g->columns;
+    while ((g->columns - 1) * (g->columns - 1) >= count)
+        --g->columns;
+    g->rows = (count + g->columns - 1) / g->columns;
+    g->inverse_columns = 1.0f / (float)g->columns;
+    g->cells = (uint)(g->columns * g->rows);
+    g->inverse_cells = 0xffffffffu / g->cells;
+}
+
+/* bits % cells. There is no vector instruction for that: the quotient by a product is at most 2 too
+ * small. */
+INLINE uint cell_of(const strata *g, uint bits)
+{
+    const uint quotient = (uint)(((ulong)bits * g->inverse_cells) >> 32);
+    uint rest = bits - quotient * g->cells;
+    rest -= rest >= g->cells ? g->cells : 0;
+    rest -= rest >= g->cells ? g->cells : 0;
+    return rest;
+}
+
+/* Sample `s` of a set. Dimensions but the pixel's go through the cells from one of their own, or
+ * pixel and lens would move together. */
+INLINE void stratified(const strata *g, int s, uint seed, uint dimension, number *u, number *v)
+{
+    uint cell = (uint)s + (dimension == RT_DIMENSION_PIXEL ? 0 : cell_of(g, seed));
+    cell -= cell >= g->cells ? g->cells : 0;
+    /* Row and column; half a cell keeps the product's rounding from mattering. */
+    const int row = (int)(((float)(int)cell + 0.5f) * g->inverse_columns);
+    const int column = (int)cell - row * g->columns;
+    *u = DIVIDE_1((number)column + unit_interval(scramble(seed + 2 * (uint)s)), (number)g->columns);
+    *v = DIVIDE_1((number)row + unit_interval(scramble(seed + 2 * (uint)s + 1)), (number)g->rows);
 }
 
 #if RT_LENS || RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION
@@ -56,7 +81,8 @@ INLINE void disk(number u, number v, number *x, number *y)
 {
     const number a = fma((number)2.0f, u, (number)-1.0f);
     const number b = fma((number)2.0f, v, (number)-1.0f);
-    const int flat = fabs(a) > fabs(b);
+    /* |b| not by fabs, as for SUM_OF_SIZES of surface.cl. */
+    const int flat = fabs(a) > (b < (number)0.0f ? -b : b);
     const number r = flat ? a : b;
     const number q = r == (number)0.0f ? (number)0.0f : DIVIDE_1(flat ? b : a, r);
     const number phi = (number)LITERAL(0.78539816) * q;

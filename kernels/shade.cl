@@ -4,16 +4,25 @@
  *     I = Ia ka + sum over lights of Ip (kd max(0, N.L) + ks max(0, R.V)^n)
  *
  * with R the mirror of L about N and V toward the eye, all unit. The sign of N.L does not gate the
- * highlight. Few branches: runtimes then vectorise across work-items. */
+ * highlight.
+ *
+ * A work-item shades a block of rays where vectors are wide: the loop over them is one that
+ * compilers turn into vectors, since nothing in it branches, and a block that hits nothing is
+ * passed over. Where a ray is a work-item, it branches. */
 
 /* x to a whole power by repeated squaring, lowest bit first: the same bits on every device. A
  * library's pow takes longer than tracing the ray. 0 to the power of 0 is 1. */
 INLINE number power_whole(number x, int exponent)
 {
     number result = 1.0f;
+    float left = exponent;
 #pragma unroll
     for (int bit = 0; bit < RT_SHININESS_BITS; ++bit) {
-        result = (exponent >> bit) & 1 ? result * x : result;
+        /* Bits by halving in float: bit tests, which do not depend on each other, make LLVM put
+         * them into one small vector, and that keeps it from the large ones across rays. */
+        const float half_ = left * 0.5f;
+        left = floor(half_);
+        result = left != half_ ? result * x : result;
         x = x * x;
     }
     return result;
@@ -30,19 +39,85 @@ INLINE number highlight(number cosine, int exponent, number shininess)
 #endif
 }
 
+/* What shading works on, and where it writes to. */
+typedef struct shading {
+    traced hits;
+    __global const int *material_of;
+    __global const rt_material *materials;
+    __global const rt_light *lights;
+    int light_count;
+    rt_surround surround;
+    __global float *colors;
+#if RT_GRADIENT
+    rt_gradient gradient;
+#endif
+#if RT_FOG
+    rt_fog fog;
+#endif
+#if RT_TEXTURE
+    pictures pictures;
+#endif
+#if RT_PROBES
+    __global const int *open; /* a row a light; ambient light's comes after them */
+#endif
+#if RT_AMBIENT_OCCLUSION
+    rt_crevice crevice;
+#endif
+#if RT_NEXT
+    __global const int *home;
+    __global number *paths;
+    __global const int *marks;
+#endif
+#if RT_SWITCHED
+    int flags;
+#endif
+} shading;
+
+/* Of a kernel that has these, for ON(). */
+#if RT_SWITCHED
+#define FLAGS_OF(w) const int flags = (w)->flags
+#else
+#define FLAGS_OF(w)
+#endif
+
+/* The background as seen along ray i. */
+INLINE void sky(const shading *w, size_t i, vec3 *color)
+{
+    *color = (vec3){w->surround.background_r, w->surround.background_g, w->surround.background_b};
+#if RT_GRADIENT
+    FLAGS_OF(w);
+    if (ON(GRADIENT)) {
+        const size_t step = w->hits.step;
+        const rt_gradient *g = &w->gradient;
+        const vec3 d = LOAD3(w->hits.rays + RT_RAY_DX * step, step, i);
+        const vec3 up = {g->up_x, g->up_y, g->up_z};
+        const vec3 top = {g->top_r, g->top_g, g->top_b};
+        const number rise = fma((number)0.5f, DOT(d, up), (number)0.5f);
+        const vec3 difference = SUB(vec3, top, *color);
+        *color = ADD_SCALED(difference, rise, *color);
+    }
+#endif
+}
+
 #if RT_SPHERES || RT_TRIANGLES
-/* What one light adds at a surface of a material whose kd is given; `open` is the part of it that
+/* The vector toward a light, unit; not finite for a light exactly at the point. */
+INLINE void toward_light(__global const rt_light *light, vec3 point, vec3 *l)
+{
+    const vec3 place = {light->x, light->y, light->z};
+    const number w = -light->w;
+    *l = ADD_SCALED(point, w, place);
+    make_unit(l);
+}
+
+/* What one light adds at a surface of a material whose kd is given; `free` is the part of it that
  * is not in shadow. */
-INLINE void add_light(const rt_light light, const rt_material m, vec3 kd, const surface *s,
-                      vec3 direction, number open, vec3 *color)
+INLINE void add_light(__global const rt_light *light, __global const rt_material *m, vec3 kd,
+                      const surface *s, vec3 direction, number free, vec3 *color)
 {
     const vec3 normal = s->normal;
-    const number w = -light.w;
-    const vec3 place = {light.x, light.y, light.z};
-    vec3 l = ADD_SCALED(s->point, w, place);
-    make_unit(&l);
-    /* A light exactly at the point has no direction and gives nothing. */
-    const number lit = isfinite(l.x) ? 1.0f : 0.0f;
+    vec3 l;
+    toward_light(light, s->point, &l);
+    const number lit = isfinite(l.x) ? 1.0f : 0.0f; /* else it has no direction and gives nothing */
     const number n_dot_l = DOT(normal, l);
     const number twice = 2.0f * n_dot_l;
     const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),
@@ -50,15 +125,175 @@ INLINE void add_light(const rt_light light, const rt_material m, vec3 kd, const 
     const number r_dot_v = -DOT(mirrored, direction);
     const number diffuse = lit * (n_dot_l > 0.0f ? n_dot_l : 0.0f);
     const number specular =
-        lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m.exponent, m.shininess);
-    color->x = fma((number)light.r * open, fma((number)m.ks_r, specular, kd.x * diffuse), color->x);
-    color->y = fma((number)light.g * open, fma((number)m.ks_g, specular, kd.y * diffuse), color->y);
-    color->z = fma((number)light.b * open, fma((number)m.ks_b, specular, kd.z * diffuse), color->z);
+        lit * highlight(r_dot_v > 0.0f ? r_dot_v : 0.0f, m->exponent, m->shininess);
+    color->x = fma(light->r * free, fma((number)m->ks_r, specular, kd.x * diffuse), color->x);
+    color->y = fma(light->g * free, fma((number)m->ks_g, specular, kd.y * diffuse), color->y);
+    color->z = fma(light->b * free, fma((number)m->ks_b, specular, kd.z * diffuse), color->z);
+}
+
+#if RT_CHECKER || RT_TEXTURE
+/* What ka and kd of a material are multiplied by at a point. */
+INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
+                    __global const rt_material *m, vec3 *tone)
+{
+    FLAGS_OF(w);
+    *tone = (vec3){1.0f, 1.0f, 1.0f};
+#if RT_CHECKER
+    if (ON(CHECKER) && m->cell > 0.0f && in_odd_cell(s->point, (number)m->cell))
+        *tone = (vec3){m->checker_r, m->checker_g, m->checker_b};
+#endif
+#if RT_TEXTURE
+    if (ON(TEXTURE) && m->texture >= 0) {
+        number x, y;
+        vec3 picture;
+        picture_point(&w->pictures, &w->hits, i, index, s, &x, &y);
+        picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, x, y, &picture);
+        *tone = MULTIPLY(*tone, picture);
+    }
+#endif
 }
 #endif
 
-/* ambient light's row in `open` comes after the lights'. */
-__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
+/* The light that the surface sends back along ray i from its hit `index`. */
+INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
+{
+    FLAGS_OF(w);
+    const size_t step = w->hits.step;
+    const vec3 direction = LOAD3(w->hits.rays + RT_RAY_DX * step, step, i);
+    surface s;
+    surface_of(&w->hits, i, index, direction, &s);
+    __global const rt_material *m = w->materials + w->material_of[index];
+    vec3 ka = {m->ka_r, m->ka_g, m->ka_b};
+    vec3 kd = {m->kd_r, m->kd_g, m->kd_b};
+#if RT_CHECKER || RT_TEXTURE
+    vec3 tone;
+    tone_at(w, i, index, &s, m, &tone);
+    ka = MULTIPLY(ka, tone);
+    kd = MULTIPLY(kd, tone);
+#endif
+    const vec3 ambient = {w->surround.ambient_r, w->surround.ambient_g, w->surround.ambient_b};
+    vec3 sum = MULTIPLY(ambient, ka);
+#if RT_AMBIENT_OCCLUSION
+    if (ON(AMBIENT_OCCLUSION)) {
+        const number part = (number)w->open[(size_t)w->light_count * step + i];
+        sum = SCALE(sum, part / (number)w->crevice.samples);
+    }
+#endif
+#if RT_LIGHTS >= 0
+#pragma unroll
+    for (int k = 0; k < RT_LIGHTS; ++k) {
+#else
+    for (int k = 0; k < w->light_count; ++k) {
+#endif
+        __global const rt_light *light = w->lights + k;
+        number free = 1.0f;
+#if RT_SHADOWS
+        if (ON(SHADOWS) && light->shadow)
+            free = (number)w->open[(size_t)k * step + i] / (number)light->samples;
+#endif
+        add_light(light, m, kd, &s, direction, free, &sum);
+    }
+    *color = sum;
+}
+#endif
+
+#if RT_FOG
+/* What fog on a way of length t, infinite for a miss, leaves of a colour; `clear` is the part. */
+INLINE void veil(const rt_fog *fog, number t, vec3 *color, number *clear)
+{
+    *clear = exp(-(number)fog->density * t);
+    const vec3 grey = {fog->r, fog->g, fog->b};
+    const vec3 thin = SCALE(grey, (number)1.0f - *clear);
+    *color = ADD_SCALED(*color, *clear, thin);
+}
+#endif
+
+#if RT_ABSORB
+/* Beer's law; without absorption nothing is lost on an endless way either. */
+INLINE number left_after(number density, number t)
+{
+    return density > (number)0.0f ? exp(-density * t) : (number)1.0f;
+}
+#endif
+
+#if RT_NEXT
+/* What a ray on its way adds to its pixel: `part` of a colour. The way's losses are put down for
+ * the rays that go on. */
+INLINE void add_to_path(const shading *w, size_t i, vec3 color)
+{
+    FLAGS_OF(w);
+    const size_t step = w->hits.step;
+    const size_t slot = (size_t)w->home[i];
+    vec3 tint = LOAD3(w->paths + RT_PATH_TINT_R * step, step, slot);
+#if RT_REFRACT
+    const int medium = w->marks[RT_MARK_MEDIUM * step + slot];
+#else
+    const int medium = RT_OUTSIDE;
+#endif
+    number clear = 1.0f;
+#if RT_FOG || RT_ABSORB
+    const number t = w->hits.hit_array[RT_HIT_T * step + i];
+#endif
+#if RT_ABSORB
+    if (ON(ABSORB) && medium != RT_OUTSIDE) {
+        __global const rt_material *in = w->materials + medium;
+        tint.x *= left_after(in->absorb_r, t);
+        tint.y *= left_after(in->absorb_g, t);
+        tint.z *= left_after(in->absorb_b, t);
+    }
+#endif
+#if RT_FOG
+    if (ON(FOG) && medium == RT_OUTSIDE)
+        veil(&w->fog, t, &color, &clear);
+#endif
+    const vec3 part = SCALE(tint, w->paths[RT_PATH_WEIGHT * step + slot]);
+    const vec3 sum = LOAD3(w->colors, step, slot);
+    STORE3(((vec3){fma(part.x, color.x, sum.x), fma(part.y, color.y, sum.y),
+                   fma(part.z, color.z, sum.z)}),
+           w->colors, step, slot);
+#if RT_FOG || RT_ABSORB
+    tint = SCALE(tint, clear);
+    STORE3(tint, w->paths + RT_PATH_TINT_R * step, step, slot);
+#endif
+}
+#endif
+
+/* Shades ray i; `may_hit` is 0 where it is known to hit nothing. */
+INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
+{
+    const size_t step = w->hits.step;
+    vec3 color;
+    sky(w, i, &color);
+#if RT_SPHERES || RT_TRIANGLES
+    if (may_hit) {
+        /* Of a ray that misses, whatever comes of primitive 0 is dropped. */
+        const int index = w->hits.hit_index[i];
+        const int is_hit = index != RT_MISS;
+        vec3 lit;
+        light_from(w, i, is_hit ? index : 0, &lit);
+        color.x = is_hit ? lit.x : color.x;
+        color.y = is_hit ? lit.y : color.y;
+        color.z = is_hit ? lit.z : color.z;
+    }
+#endif
+#if RT_NEXT
+    /* Not what hangs over the tile's edge or fills up a block. */
+    if (w->hits.rays[RT_RAY_TMIN * step + i] < w->hits.rays[RT_RAY_TMAX * step + i])
+        add_to_path(w, i, color);
+#else
+#if RT_FOG
+    number clear;
+    veil(&w->fog, w->hits.hit_array[RT_HIT_T * step + i], &color, &clear);
+#endif
+#if RT_SUM
+    const vec3 sum = LOAD3(w->colors, step, i);
+    color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
+#endif
+    STORE3(color, w->colors, step, i);
+#endif
+}
+
+__kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
          __global const rt_light *lights, const int light_count, const rt_surround surround,
          __global float *colors
@@ -85,12 +320,7 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
 #endif
 #if RT_NEXT
          ,
-         const int depth, __global const int *home, __global number *paths, __global int *marks,
-         __global number *next_rays, __global int *next_home
-#endif
-#if RT_REFRACT
-         ,
-         __global number *waiting, __global int *waiting_marks
+         __global const int *home, __global number *paths, __global const int *marks
 #endif
 #if RT_SWITCHED
          ,
@@ -98,154 +328,44 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
 #endif
 )
 {
-    const size_t i = get_global_id(0);
-    const size_t step = (size_t)stride;
-#if RT_NEXT
-    if (!(rays[RT_RAY_TMIN * step + i] < rays[RT_RAY_TMAX * step + i])) {
-        next_rays[RT_RAY_TMIN * step + i] = 0.0f;
-        next_rays[RT_RAY_TMAX * step + i] = -1.0f;
-        return;
-    }
-#endif
-#if RT_NEXT
-    const int slot = home[i];
-    next_ray from;
-    from.weight = paths[RT_PATH_WEIGHT * step + (size_t)slot];
-    from.tint = LOAD3(paths + RT_PATH_TINT_R * step, step, (size_t)slot);
-    from.bounce = marks[RT_MARK_BOUNCE * step + (size_t)slot];
-    from.medium = RT_REFRACT ? marks[RT_MARK_MEDIUM * step + (size_t)slot] : RT_OUTSIDE;
-#endif
-    vec3 color = {surround.background_r, surround.background_g, surround.background_b};
+    const shading w = {
+        .hits = TRACED,
+        .material_of = material_of,
+        .materials = materials,
+        .lights = lights,
+        .light_count = light_count,
+        .surround = surround,
+        .colors = colors,
 #if RT_GRADIENT
-    if (ON(GRADIENT)) {
-        const vec3 d = LOAD3(rays + RT_RAY_DX * step, step, i);
-        const vec3 up = {gradient.up_x, gradient.up_y, gradient.up_z};
-        const number rise = fma((number)0.5f, DOT(d, up), (number)0.5f);
-        const vec3 top = {gradient.top_r, gradient.top_g, gradient.top_b};
-        const vec3 difference = SUB(vec3, top, color);
-        color = ADD_SCALED(difference, rise, color);
-    }
+        .gradient = gradient,
 #endif
-    int index = RT_MISS;
-#if RT_SPHERES || RT_TRIANGLES
-    index = hit_index[i];
-    surface s;
-    vec3 direction;
-    rt_material m;
-    int material = 0;
-    if (index != RT_MISS) {
-        const traced w = TRACED;
-        direction = LOAD3(rays + RT_RAY_DX * step, step, i);
-        surface_of(&w, i, index, direction, &s);
-        material = material_of[index];
-        m = materials[material];
-        vec3 ka = {m.ka_r, m.ka_g, m.ka_b};
-        vec3 kd = {m.kd_r, m.kd_g, m.kd_b};
-#if RT_CHECKER
-        if (ON(CHECKER) && m.cell > 0.0f && in_odd_cell(s.point, (number)m.cell)) {
-            const vec3 tone = {m.checker_r, m.checker_g, m.checker_b};
-            ka = MULTIPLY(ka, tone);
-            kd = MULTIPLY(kd, tone);
-        }
+#if RT_FOG
+        .fog = fog,
 #endif
 #if RT_TEXTURE
-        if (ON(TEXTURE) && m.texture >= 0) {
-            const pictures p = {uvs_of, uvs, textures, texels};
-            number x, y;
-            vec3 tone;
-            picture_point(&p, &w, i, index, &s, &x, &y);
-            picture_color(&p, textures[m.texture], m.nearest, x, y, &tone);
-            ka = MULTIPLY(ka, tone);
-            kd = MULTIPLY(kd, tone);
-        }
+        .pictures = {uvs_of, uvs, textures, texels},
 #endif
-        const vec3 ambient = {surround.ambient_r, surround.ambient_g, surround.ambient_b};
-        color = MULTIPLY(ambient, ka);
+#if RT_PROBES
+        .open = open,
+#endif
 #if RT_AMBIENT_OCCLUSION
-        if (ON(AMBIENT_OCCLUSION)) {
-            const number part = (number)open[(size_t)light_count * step + i];
-            color = SCALE(color, part / (number)crevice.samples);
-        }
-#endif
-        for (int k = 0; k < light_count; ++k) {
-            const rt_light light = lights[k];
-            number free = 1.0f;
-#if RT_SHADOWS
-            if (ON(SHADOWS) && light.shadow)
-                free = (number)open[(size_t)k * step + i] / (number)light.samples;
-#endif
-            add_light(light, m, kd, &s, direction, free, &color);
-        }
-    }
-#endif
-#if RT_ABSORB
-    if (ON(ABSORB) && from.medium != RT_OUTSIDE) {
-        const rt_material in = materials[from.medium];
-        const number t = hit_array[RT_HIT_T * step + i];
-        from.tint.x *= in.absorb_r > 0.0f ? exp((number)-in.absorb_r * t) : (number)1.0f;
-        from.tint.y *= in.absorb_g > 0.0f ? exp((number)-in.absorb_g * t) : (number)1.0f;
-        from.tint.z *= in.absorb_b > 0.0f ? exp((number)-in.absorb_b * t) : (number)1.0f;
-    }
-#endif
-#if RT_FOG
-    number clear = 1.0f; /* the part that the fog on the ray's way lets through */
-#if RT_NEXT
-    if (ON(FOG) && from.medium == RT_OUTSIDE)
-#else
-    if (ON(FOG))
-#endif
-    {
-        const number t = hit_array[RT_HIT_T * step + i];
-        clear = index == RT_MISS ? (number)0.0f : exp((number)-fog.density * t);
-        const vec3 veil = {fog.r, fog.g, fog.b};
-        const vec3 thin = SCALE(veil, (number)1.0f - clear);
-        color = ADD_SCALED(color, clear, thin);
-    }
+        .crevice = crevice,
 #endif
 #if RT_NEXT
-    const vec3 part = SCALE(from.tint, from.weight);
-    const vec3 sum = LOAD3(colors, step, (size_t)slot);
-    color = (vec3){fma(part.x, color.x, sum.x), fma(part.y, color.y, sum.y),
-                   fma(part.z, color.z, sum.z)};
-    STORE3(color, colors, step, (size_t)slot);
-    if (!ON(NEXT))
-        return;
-#if RT_FOG
-    from.tint = SCALE(from.tint, clear);
+        .home = home,
+        .paths = paths,
+        .marks = marks,
 #endif
-    next_ray r;
-    int has = 0;
-#if RT_SPHERES || RT_TRIANGLES
-    if (index != RT_MISS && from.bounce < depth) {
-        number reflected_part = m.reflect;
-#if RT_REFRACT
-        next_ray aside;
-        has = send_refracted(direction, &s, m, material, &from, &r, &reflected_part);
-        if (send_mirrored(direction, &s, reflected_part, &from, has ? &aside : &r)) {
-            if (has)
-                push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
-            has = 1;
-        }
-#else
-        has = send_mirrored(direction, &s, reflected_part, &from, &r);
+#if RT_SWITCHED
+        .flags = flags,
 #endif
-    }
-#endif
-#if RT_REFRACT
-    if (!has)
-        has = pop_waiting(waiting, waiting_marks, marks, step, slot, &r);
-#endif
-    if (has) {
-        store_next(next_rays, next_home, step, i, slot, paths, marks, &r);
+    };
+    const size_t first = get_global_id(0) * RT_ITEM_RAYS;
+    if (any_hit(hit_index, first)) {
+        EACH_RAY(k)
+        shade_ray(&w, first + k, 1);
     } else {
-        next_rays[RT_RAY_TMIN * step + i] = 0.0f;
-        next_rays[RT_RAY_TMAX * step + i] = -1.0f;
+        EACH_RAY(k)
+        shade_ray(&w, first + k, 0);
     }
-#elif RT_SUM
-    const vec3 sum = LOAD3(colors, step, i);
-    color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
-    STORE3(color, colors, step, i);
-#else
-    STORE3(color, colors, step, i);
-#endif
 }

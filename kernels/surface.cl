@@ -35,6 +35,10 @@ INLINE number side_toward(vec3 normal, vec3 direction)
 #define EXTENT_ALONG(n, bx, by, bz)                                                                \
     fma(fabs((n).x), (bx), fma(fabs((n).y), (by), fabs((n).z) * (bz)))
 
+/* |a| + |b| + |c|. One is not fabs, or LLVM would put two into a vector of two, which keeps it from
+ * making vectors across rays. */
+#define SUM_OF_SIZES(a, b, c) (fabs(a) + ((b) < (number)0.0f ? -(b) : (b)) + fabs(c))
+
 #if RT_SPHERES
 INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 direction, surface *s)
 {
@@ -50,7 +54,7 @@ INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 di
                                               fma(radius, fabs(normal.y), fabs(center.y)),
                                               fma(radius, fabs(normal.z), fabs(center.z)));
     s->facing = SCALE(normal, side);
-    s->normal = s->facing;
+    s->normal = SCALE(normal, side); /* no copy: a struct in memory ends vectorising */
     s->outside = side > 0.0f;
 }
 #endif
@@ -80,11 +84,11 @@ INLINE void triangle_surface(__global const rt_triangle_block *t, int k, number 
     const number pw = 1.0f - pu - pv;
     s->start = (vec3){fma(pv, c.x, fma(pu, b.x, pw * a.x)), fma(pv, c.y, fma(pu, b.y, pw * a.y)),
                       fma(pv, c.z, fma(pu, b.z, pw * a.z))};
-    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, fabs(a.x) + fabs(b.x) + fabs(c.x),
-                                                    fabs(a.y) + fabs(b.y) + fabs(c.y),
-                                                    fabs(a.z) + fabs(b.z) + fabs(c.z));
+    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, SUM_OF_SIZES(a.x, b.x, c.x),
+                                                    SUM_OF_SIZES(a.y, b.y, c.y),
+                                                    SUM_OF_SIZES(a.z, b.z, c.z));
     s->facing = SCALE(normal, side);
-    s->normal = s->facing;
+    s->normal = SCALE(normal, side);
     s->outside = side > 0.0f;
 }
 #endif
@@ -141,11 +145,12 @@ typedef struct traced {
 } traced;
 
 #if RT_SPHERES || RT_TRIANGLES
-/* The surface that ray i, which goes along `direction`, has met as hit `index`. */
+/* The surface that ray i, which goes along `direction`, has met as hit `index`; for a miss and any
+ * index something. */
 INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, surface *s)
 {
     const size_t step = w->step;
-    const int slot = w->hit_slot[i];
+    const int slot = max(w->hit_slot[i], 0);
     const int place = slot % RT_BLOCK_PRIMITIVES;
     const vec3 origin = LOAD3(w->rays, step, i);
     const number t = w->hit_array[RT_HIT_T * step + i];
@@ -173,9 +178,9 @@ INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, sur
 #endif
 
 /* Where a ray starts that leaves the surface on the side that `side` points to. */
-INLINE void leave(const surface *s, vec3 side, vec3 *origin)
+INLINE void leave(const surface *s, const vec3 *side, vec3 *origin)
 {
-    const number lift = DOT(s->facing, side) > 0.0f ? s->lift : -s->lift;
+    const number lift = DOT(s->facing, *side) > 0.0f ? s->lift : -s->lift;
     *origin = (vec3){fma(lift, s->facing.x, s->start.x), fma(lift, s->facing.y, s->start.y),
                      fma(lift, s->facing.z, s->start.z)};
 }

@@ -32,3 +32,21 @@ INLINE pixel slot_pixel(rt_tile tile, int slot)
     return p;
 }
 #endif
+
+/* Where a loop does not become one of vectors, that is no mistake. */
+#ifdef __clang__
+#pragma clang diagnostic ignored "-Wpass-failed"
+#endif
+
+/* The rays of a work-item, each without a thought to the others. */
+#define EACH_RAY(k)                                                                                \
+    _Pragma("clang loop vectorize(assume_safety)") for (size_t k = 0; k < RT_ITEM_RAYS; ++k)
+
+/* Whether one of them hits anything. */
+INLINE int any_hit(__global const int *hit_index, size_t first)
+{
+    int any = 0;
+    for (int k = 0; k < RT_ITEM_RAYS; ++k)
+        any |= hit_index[first + (size_t)k] ^ RT_MISS;
+    return any != 0;
+}

@@ -233,8 +233,6 @@ typedef struct rt_turn {
 #define RT_FLAG_ANTIALIAS 0x1
 #define RT_FLAG_LENS 0x2
 #define RT_FLAG_SHADOWS 0x4
-#define RT_FLAG_REFLECT 0x8
-#define RT_FLAG_REFRACT 0x10
 #define RT_FLAG_ABSORB 0x20
 #define RT_FLAG_AMBIENT_OCCLUSION 0x40
 #define RT_FLAG_FOG 0x80
@@ -242,7 +240,5 @@ typedef struct rt_turn {
 #define RT_FLAG_CHECKER 0x200
 #define RT_FLAG_TEXTURE 0x400
 #define RT_FLAG_TENT 0x800
-#define RT_FLAG_NEXT (RT_FLAG_REFLECT | RT_FLAG_REFRACT)
-#define RT_FLAG_SUM (RT_FLAG_ANTIALIAS | RT_FLAG_NEXT)
 
 #endif

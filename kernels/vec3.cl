@@ -43,13 +43,15 @@ typedef struct vec3 {
  * component is zero, denormal or nearly infinite it is some finite power of two. */
 INLINE number moderating_factor(vec3 v)
 {
-    const number largest = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
+    /* The greatest exponent, as bits: one instruction a maximum, which fmax is not. */
 #if RT_ACCURACY == RT_DOUBLE
-    const long exponent = as_long(largest) & 0x7ff0000000000000L;
-    return as_double(0x7fe0000000000000L - min(exponent, 0x7fd0000000000000L));
+    const long bits = 0x7ff0000000000000L, x = as_long(v.x) & bits, y = as_long(v.y) & bits,
+               z = as_long(v.z) & bits;
+    return as_double(0x7fe0000000000000L - min(max(max(x, y), z), 0x7fd0000000000000L));
 #else
-    const int exponent = as_int(largest) & 0x7f800000;
-    return as_float(0x7f000000 - min(exponent, 0x7e800000));
+    const int bits = 0x7f800000, x = as_int(v.x) & bits, y = as_int(v.y) & bits,
+              z = as_int(v.z) & bits;
+    return as_float(0x7f000000 - min(max(max(x, y), z), 0x7e800000));
 #endif
 }
 

@@ -162,6 +162,11 @@ void rt_effects_remove_all(rt_scene *scene)
         rt_effects_remove(scene, (enum rt_effect)e);
 }
 
+bool rt_effects_has(const rt_effects *effects, enum rt_effect effect)
+{
+    return effects->mode == RT_EFFECTS_ALL || effects->on[effect];
+}
+
 const char *rt_effect_name(enum rt_effect effect)
 {
     static const char *const names[RT_EFFECT_COUNT] = {

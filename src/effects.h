@@ -57,6 +57,9 @@ void rt_effects_remove(rt_scene *scene, enum rt_effect effect);
 /* Leaves Phong's formula alone: what RT_EFFECTS_NONE stands for. */
 void rt_effects_remove_all(rt_scene *scene);
 
+/* Whether an effect is compiled into the kernels: because it is on, or because all are. */
+bool rt_effects_has(const rt_effects *effects, enum rt_effect effect);
+
 /* The effect's name in `--stats` and messages, such as "culling". */
 const char *rt_effect_name(enum rt_effect effect);
 

@@ -66,25 +66,26 @@ static bool probe(passes *p, int row, int samples, enum rt_stage rays, enum rt_s
 static bool probe_all(passes *p)
 {
     rt_renderer *r = p->r;
-    if (!rt_renderer_has_probes(r))
-        return true;
-    for (int k = 0; k < r->light_count; ++k)
+    const bool shadows =
+        r->effects.on[RT_EFFECT_HARD_SHADOWS] || r->effects.on[RT_EFFECT_SOFT_SHADOWS];
+    for (int k = 0; shadows && k < r->light_count; ++k)
         if (r->lights[k].shadow && !probe(p, k, r->lights[k].samples, RT_STAGE_SHADOW_RAYS,
                                           RT_STAGE_SHADOW, RT_STAGE_SHADOW_TALLY))
             return false;
-    return !rt_renderer_has(r, RT_EFFECT_OCCLUSION) ||
+    return !r->effects.on[RT_EFFECT_OCCLUSION] ||
            probe(p, r->light_count, r->occlusion_samples, RT_STAGE_AMBIENT_RAYS, RT_STAGE_AMBIENT,
                  RT_STAGE_AMBIENT_TALLY);
 }
 
-/* Waits for a pass, asks what goes on, and packs it. p->rays becomes 0 where nothing does. */
+/* Sends on what goes on from a pass, waits for it, and packs it. p->rays becomes 0 where nothing
+ * does. */
 static bool pack(passes *p)
 {
     rt_renderer *r = p->r;
     const size_t blocks = p->rays / RT_BLOCK_RAYS;
     cl_int *counts = r->counts, *first = r->counts + RT_COUNT_COMPONENTS * blocks;
     cl_event event = NULL;
-    if (!launch(p, RT_STAGE_COUNT_NEXT, p->rays) ||
+    if (!launch(p, RT_STAGE_NEXT, p->rays) || !launch(p, RT_STAGE_COUNT_NEXT, p->rays) ||
         !RT_CL(clEnqueueReadBuffer(r->queue, r->tile[BUFFER_COUNTS], CL_TRUE, 0,
                                    RT_COUNT_COMPONENTS * blocks * sizeof *counts, counts, 0, NULL,
                                    &event),
@@ -112,6 +113,12 @@ static bool pack(passes *p)
            launch(p, RT_STAGE_PACK, rays);
 }
 
+/* Not whether the kernels could: whether the scene calls for it. */
+static bool goes_on(const rt_renderer *r)
+{
+    return r->effects.on[RT_EFFECT_REFLECTION] || r->effects.on[RT_EFFECT_REFRACTION];
+}
+
 static bool interrupted(passes *p, const rt_watch *watch, double done)
 {
     return !rt_watch_tick(watch, done) &&
@@ -131,7 +138,7 @@ static bool draw_sample(passes *p, bool hits, const rt_watch *watch, double done
             (is_first && hits && !launch(p, RT_STAGE_HITS, p->rays)) || !probe_all(p) ||
             !launch(p, is_first ? RT_STAGE_SHADE : RT_STAGE_NEXT_SHADE, p->rays))
             return false;
-        if (!rt_renderer_has_next(p->r))
+        if (!goes_on(p->r))
             return true;
         if (!pack(p) || interrupted(p, watch, done))
             return false;

@@ -19,6 +19,7 @@ static const struct {
     [RT_STAGE_AMBIENT_RAYS] = {"ambient rays", "rt_ambient_rays", RT_STAGE_AMBIENT_RAYS},
     [RT_STAGE_AMBIENT] = {"ambient", "rt_occlude", RT_STAGE_OCCLUDE},
     [RT_STAGE_AMBIENT_TALLY] = {"ambient tally", "rt_tally", RT_STAGE_SHADOW_TALLY},
+    [RT_STAGE_NEXT] = {"next", "rt_next", RT_STAGE_NEXT},
     [RT_STAGE_COUNT_NEXT] = {"count", "rt_count", RT_STAGE_COUNT_NEXT},
     [RT_STAGE_PACK] = {"pack", "rt_pack", RT_STAGE_PACK},
     [RT_STAGE_NEXT_TRACE] = {"next trace", "rt_trace", RT_STAGE_TRACE},
@@ -32,7 +33,7 @@ const char *rt_stage_name(enum rt_stage stage)
 
 bool rt_renderer_has(const rt_renderer *r, enum rt_effect effect)
 {
-    return r->effects.on[effect];
+    return rt_effects_has(&r->effects, effect);
 }
 
 bool rt_renderer_has_next(const rt_renderer *r)
@@ -63,6 +64,7 @@ static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
         return rt_renderer_has(r, RT_EFFECT_OCCLUSION);
     case RT_STAGE_SHADOW_TALLY:
         return rt_renderer_has_probes(r);
+    case RT_STAGE_NEXT:
     case RT_STAGE_COUNT_NEXT:
     case RT_STAGE_PACK:
         return rt_renderer_has_next(r);
@@ -74,7 +76,8 @@ static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
 /* At most one ray a bounce waits. */
 static size_t most_waiting(const rt_renderer *r)
 {
-    return (size_t)(r->depth < RT_WAITING_MOST ? r->depth : RT_WAITING_MOST);
+    const int depth = r->effects.on[RT_EFFECT_REFRACTION] ? r->depth : 1;
+    return (size_t)(depth < RT_WAITING_MOST ? depth : RT_WAITING_MOST);
 }
 
 /* Bytes a ray of the tile in a buffer; 0 where nothing calls for it. */
@@ -177,10 +180,34 @@ static void push_buffers(arguments *a, const rt_renderer *r, const enum tile_buf
 static const rt_tile no_tile = {0, 0, 0, 0};
 static const rt_turn no_turn = {0, 0, 0, 0, 0};
 
-static int push_flags(arguments *a, const rt_scene *scene)
+/* The bits of the effects that are on, for kernels that are switched by them. */
+static cl_int flags_of(const rt_renderer *r)
 {
-    const cl_int flags = scene->filter == RT_FILTER_TENT ? RT_FLAG_TENT : 0;
-    return PUSH(a, flags);
+    static const struct {
+        enum rt_effect effect;
+        cl_int flag;
+    } flags[] = {{RT_EFFECT_CHECKER, RT_FLAG_CHECKER},
+                 {RT_EFFECT_TEXTURE, RT_FLAG_TEXTURE},
+                 {RT_EFFECT_HARD_SHADOWS, RT_FLAG_SHADOWS},
+                 {RT_EFFECT_SOFT_SHADOWS, RT_FLAG_SHADOWS},
+                 {RT_EFFECT_ABSORPTION, RT_FLAG_ABSORB},
+                 {RT_EFFECT_OCCLUSION, RT_FLAG_AMBIENT_OCCLUSION},
+                 {RT_EFFECT_FOG, RT_FLAG_FOG},
+                 {RT_EFFECT_GRADIENT, RT_FLAG_GRADIENT},
+                 {RT_EFFECT_ANTIALIASING, RT_FLAG_ANTIALIAS},
+                 {RT_EFFECT_DEPTH_OF_FIELD, RT_FLAG_LENS}};
+    cl_int bits = 0;
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i)
+        if (r->effects.on[flags[i].effect])
+            bits |= flags[i].flag;
+    return bits;
+}
+
+static void push_flags(arguments *a, const rt_renderer *r)
+{
+    const cl_int flags = flags_of(r);
+    if (r->effects.mode == RT_EFFECTS_ALL)
+        PUSH(a, flags);
 }
 
 static void camera_arguments(arguments *a, rt_renderer *r, const rt_scene *scene)
@@ -188,6 +215,7 @@ static void camera_arguments(arguments *a, rt_renderer *r, const rt_scene *scene
     const rt_frame frame = rt_scene_frame(scene);
     const rt_frame_double frame_double = rt_scene_frame_double(scene);
     const cl_int samples = r->samples;
+    const cl_int flags = flags_of(r) | (scene->filter == RT_FILTER_TENT ? RT_FLAG_TENT : 0);
     const bool next = rt_renderer_has_next(r);
     const bool antialias = rt_renderer_has(r, RT_EFFECT_ANTIALIASING);
     const bool random = antialias || rt_renderer_has(r, RT_EFFECT_DEPTH_OF_FIELD);
@@ -202,7 +230,7 @@ static void camera_arguments(arguments *a, rt_renderer *r, const rt_scene *scene
         r->changing[RT_STAGE_CAMERA].turn = PUSH(a, no_turn);
     if (random) {
         PUSH(a, samples);
-        push_flags(a, scene);
+        PUSH(a, flags);
     }
     if (antialias || next)
         PUSH_BUFFERS(a, r, BUFFER_COLORS);
@@ -242,8 +270,9 @@ static void traced_arguments(arguments *a, const rt_renderer *r)
 static void next_arguments(arguments *a, const rt_renderer *r)
 {
     const cl_int depth = r->depth;
-    if (!rt_renderer_has_next(r))
-        return;
+    traced_arguments(a, r);
+    PUSH(a, r->scene.materials_of);
+    PUSH(a, r->scene.materials);
     PUSH(a, depth);
     PUSH_BUFFERS(a, r, BUFFER_HOME, BUFFER_PATHS, BUFFER_MARKS, BUFFER_NEXT_RAYS, BUFFER_NEXT_HOME);
     if (rt_renderer_has(r, RT_EFFECT_REFRACTION))
@@ -283,7 +312,9 @@ static void shade_arguments(arguments *a, const rt_renderer *r, const rt_scene *
         const rt_crevice crevice = {scene->occlusion_distance, scene->occlusion_samples};
         PUSH(a, crevice);
     }
-    next_arguments(a, r);
+    if (rt_renderer_has_next(r))
+        PUSH_BUFFERS(a, r, BUFFER_HOME, BUFFER_PATHS, BUFFER_MARKS);
+    push_flags(a, r);
 }
 
 /* What probes with random directions need to know of their rays. */
@@ -316,8 +347,10 @@ static void resolve_arguments(arguments *a, rt_renderer *r)
     r->changing[RT_STAGE_RESOLVE].tile = PUSH(a, no_tile);
     PUSH(a, r->stride);
     PUSH_BUFFERS(a, r, BUFFER_COLORS, BUFFER_PICTURE);
-    if (rt_renderer_has(r, RT_EFFECT_ANTIALIASING))
+    if (rt_renderer_has(r, RT_EFFECT_ANTIALIASING)) {
         PUSH(a, samples);
+        push_flags(a, r);
+    }
 }
 
 static bool set_arguments(rt_renderer *r, const rt_scene *scene, enum rt_stage stage,
@@ -358,6 +391,9 @@ static bool set_arguments(rt_renderer *r, const rt_scene *scene, enum rt_stage s
         r->changing[stage].turn = PUSH(a, no_turn);
         PUSH(a, lights);
         PUSH_BUFFERS(a, r, BUFFER_PROBES, BUFFER_BLOCKED, BUFFER_OPEN, BUFFER_CAST);
+        break;
+    case RT_STAGE_NEXT:
+        next_arguments(a, r);
         break;
     case RT_STAGE_COUNT_NEXT:
         PUSH(a, r->stride);

@@ -25,6 +25,9 @@ static int round_stack(size_t need)
     return size;
 }
 
+/* So many lights are a loop that is unrolled; each count is a variant to compile. */
+#define LIGHTS_UNROLLED 4
+
 /* Of the effects, the options of those that are on: the others' default is not to be there. */
 static void effect_options(const rt_effects *effects, char *options, size_t size)
 {
@@ -42,18 +45,25 @@ static void effect_options(const rt_effects *effects, char *options, size_t size
                  {RT_EFFECT_ANTIALIASING, "ANTIALIAS"},
                  {RT_EFFECT_DEPTH_OF_FIELD, "LENS"}};
     size_t length = strlen(options);
+    const bool all = effects->mode == RT_EFFECTS_ALL;
+    if (all)
+        length += (size_t)snprintf(options + length, size - length, " -DRT_SWITCHED=1");
+    else if (effects->light_count <= LIGHTS_UNROLLED)
+        length += (size_t)snprintf(options + length, size - length, " -DRT_LIGHTS=%d",
+                                   effects->light_count);
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i)
-        if (effects->on[names[i].effect])
+        if (rt_effects_has(effects, names[i].effect))
             length +=
                 (size_t)snprintf(options + length, size - length, " -DRT_%s=1", names[i].option);
-    const bool soft = effects->on[RT_EFFECT_SOFT_SHADOWS];
-    if (soft || effects->on[RT_EFFECT_HARD_SHADOWS])
+    const bool soft = rt_effects_has(effects, RT_EFFECT_SOFT_SHADOWS);
+    if (soft || rt_effects_has(effects, RT_EFFECT_HARD_SHADOWS))
         snprintf(options + length, size - length, " -DRT_SHADOWS=%d", soft ? 2 : 1);
 }
 
 void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
                         char *options)
 {
+    const bool all = effects->mode == RT_EFFECTS_ALL;
     snprintf(options, RT_PROGRAM_OPTIONS_SIZE,
              "-cl-std=CL1.2%s%s -DRT_ACCURACY=%d -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d "
              "-DRT_STACK=%d "
@@ -64,9 +74,10 @@ void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_
              walk->accuracy == RT_ACCURACY_FAST ? " -cl-fast-relaxed-math -cl-denorms-are-zero"
                                                 : "",
              (int)walk->accuracy, walk->lanes, walk->packet, walk->stack_size > 0,
-             round_stack(walk->stack_size), walk->with_occlusion, effects->has_spheres,
-             effects->has_triangles, effects->cull_sign, effects->on[RT_EFFECT_SMOOTH_NORMALS],
-             effects->exponent_bits, effects->has_fractional_exponent, (int)rounding);
+             round_stack(walk->stack_size), walk->with_occlusion, all || effects->has_spheres,
+             all || effects->has_triangles, effects->cull_sign,
+             rt_effects_has(effects, RT_EFFECT_SMOOTH_NORMALS), all ? 20 : effects->exponent_bits,
+             all || effects->has_fractional_exponent, (int)rounding);
     effect_options(effects, options, RT_PROGRAM_OPTIONS_SIZE);
 }
 

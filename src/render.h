@@ -39,7 +39,8 @@ enum rt_stage {
     RT_STAGE_AMBIENT_RAYS, /* and these for ambient occlusion */
     RT_STAGE_AMBIENT,
     RT_STAGE_AMBIENT_TALLY,
-    RT_STAGE_COUNT_NEXT, /* of rays that go on: how many, ... */
+    RT_STAGE_NEXT,       /* rays that go on: what they are, ... */
+    RT_STAGE_COUNT_NEXT, /* ... how many, ... */
     RT_STAGE_PACK,       /* those alone ... */
     RT_STAGE_NEXT_TRACE, /* ... and trace and shade again */
     RT_STAGE_NEXT_SHADE,

@@ -32,7 +32,7 @@ static void options_name_what_the_scene_has(void **state)
                                  "-DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
                                  "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
                                  "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
-                                 "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1");
+                                 "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1 -DRT_LIGHTS=0");
     rt_program_options(&effects, &walk, RT_ROUNDING_DEVICE, options);
     assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
 }
@@ -61,7 +61,13 @@ static void unknown_variants_do_not_build(void **state)
                                       "-DRT_ROUNDING=3",
                                       "-DRT_SHININESS_BITS=9",
                                       "-DRT_SHININESS_FRACTION=2",
-                                      "-DRT_SMOOTH=1 -DRT_TRIANGLES=0"};
+                                      "-DRT_SMOOTH=1 -DRT_TRIANGLES=0",
+                                      "-DRT_LIGHTS=5",
+                                      "-DRT_FOG=2",
+                                      "-DRT_SHADOWS=3",
+                                      "-DRT_SWITCHED=2",
+                                      "-DRT_ABSORB=1",
+                                      "-DRT_SHADOWS=1"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         rt_status status = RT_STATUS_INIT;
         assert_null(build(bad[i], &status));
