@@ -35,8 +35,9 @@ pair NAME(stratified)(const stream *s, uint32_t dimension, uint32_t count, uint3
     /* Sample s of the pixel and sample s of the lens must not always lie in the same corner. */
     const uint32_t offset = dimension == DIMENSION_PIXEL ? 0 : seed % (columns * rows);
     const uint32_t cell = (sample + offset) % (columns * rows);
-    const real x = (real)(cell % columns) + fraction(NAME(mix)(seed + 2 * sample));
-    const real y = (real)(cell / columns) + fraction(NAME(mix)(seed + 2 * sample + 1));
+    const uint32_t column = cell % columns, row = cell / columns;
+    const real x = (real)column + fraction(NAME(mix)(seed + 2 * sample));
+    const real y = (real)row + fraction(NAME(mix)(seed + 2 * sample + 1));
     return (pair){x / (real)columns, y / (real)rows};
 }
 

@@ -97,7 +97,7 @@ scalar_world NAME(world)(const rt_scene *scene)
     scalar_world world = {.scene = scene};
     if (count == 0)
         return world;
-    builder b = {scene, malloc(count * sizeof *b.nodes), malloc(count * sizeof *b.order), 0};
+    builder b = {scene, malloc(count * sizeof *b.nodes), calloc(count, sizeof *b.order), 0};
     if (!b.nodes || !b.order) {
         free(b.nodes);
         free(b.order);

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scalar.h"
+
 /* What a random scene asks for. */
 enum {
     SAMPLES = 1 << 0,
@@ -206,8 +208,11 @@ static bool is_off(const float *a, const float *b)
 static void compare(const rt_scene *scene, tally *sum)
 {
     rt_image actual, expected;
+    rt_status status = RT_STATUS_INIT;
     test_draw(scene, NULL, &actual);
     test_draw_scalar(scene, &expected);
+    if (scene->accuracy == RT_ACCURACY_DOUBLE)
+        assert_good(rt_scalar_double_render(scene, &expected, NULL, &status), &status);
     const rt_image_difference d = rt_image_compare(&actual, &expected);
     const size_t pixels = (size_t)actual.width * (size_t)actual.height;
     assert_int_equal(d.non_finite, 0);
@@ -220,11 +225,13 @@ static void compare(const rt_scene *scene, tally *sum)
     rt_image_clear(&expected);
 }
 
-static void compare_random(uint64_t first, int count, int asked, double size, tally *sum)
+static void compare_random(uint64_t first, int count, int asked, double size,
+                           enum rt_accuracy level, tally *sum)
 {
     for (int i = 0; i < count; ++i) {
         rt_scene scene;
         make_scene(&scene, first + (uint64_t)i, asked, size);
+        scene.accuracy = level;
         compare(&scene, sum);
         rt_scene_clear(&scene);
     }
@@ -253,34 +260,36 @@ static void random_scenes(void **state)
         const char *name;
         int asked;
         double size;
+        enum rt_accuracy level;
     } sets[] = {
-        {"Phong", 0, 1},
-        {"anti-aliasing", SAMPLES, 1},
-        {"tent filter", SAMPLES | TENT, 1},
-        {"lens", LENS, 1},
-        {"lens and samples", LENS | SAMPLES, 1},
-        {"gradient", GRADIENT, 1},
-        {"fog", FOG, 1},
-        {"checker", CHECKER, 1},
-        {"texture", TEXTURE, 1},
-        {"nearest texel", TEXTURE | NEAREST, 1},
-        {"hard shadows", HARD, 1},
-        {"soft shadows", SOFT, 1},
-        {"hard and soft shadows", HARD | SOFT, 1},
-        {"occlusion", OCCLUSION, 1},
-        {"mirrors", MIRROR, 1},
-        {"smooth mirrors", MIRROR | SMOOTH, 1},
-        {"glass", GLASS, 1},
-        {"smooth glass, culled", GLASS | SMOOTH | CULL, 1},
-        {"mirrors and glass", MIRROR | GLASS | ABSORB, 1},
-        {"all but samples", ALL - SAMPLES, 1},
-        {"all", ALL | POWER, 1},
-        {"all, tiny", ALL, 1e-5},
-        {"all, huge", ALL, 1e5},
+        {"Phong", 0, 1, RT_ACCURACY_STANDARD},
+        {"anti-aliasing", SAMPLES, 1, RT_ACCURACY_STANDARD},
+        {"tent filter", SAMPLES | TENT, 1, RT_ACCURACY_STANDARD},
+        {"lens", LENS, 1, RT_ACCURACY_STANDARD},
+        {"lens and samples", LENS | SAMPLES, 1, RT_ACCURACY_STANDARD},
+        {"gradient", GRADIENT, 1, RT_ACCURACY_STANDARD},
+        {"fog", FOG, 1, RT_ACCURACY_STANDARD},
+        {"checker", CHECKER, 1, RT_ACCURACY_STANDARD},
+        {"texture", TEXTURE, 1, RT_ACCURACY_STANDARD},
+        {"nearest texel", TEXTURE | NEAREST, 1, RT_ACCURACY_STANDARD},
+        {"hard shadows", HARD, 1, RT_ACCURACY_STANDARD},
+        {"soft shadows", SOFT, 1, RT_ACCURACY_STANDARD},
+        {"hard and soft shadows", HARD | SOFT, 1, RT_ACCURACY_STANDARD},
+        {"occlusion", OCCLUSION, 1, RT_ACCURACY_STANDARD},
+        {"mirrors", MIRROR, 1, RT_ACCURACY_STANDARD},
+        {"smooth mirrors", MIRROR | SMOOTH, 1, RT_ACCURACY_STANDARD},
+        {"glass", GLASS, 1, RT_ACCURACY_STANDARD},
+        {"smooth glass, culled", GLASS | SMOOTH | CULL, 1, RT_ACCURACY_STANDARD},
+        {"mirrors and glass", MIRROR | GLASS | ABSORB, 1, RT_ACCURACY_STANDARD},
+        {"all but samples", ALL - SAMPLES, 1, RT_ACCURACY_STANDARD},
+        {"all", ALL | POWER, 1, RT_ACCURACY_STANDARD},
+        {"all, tiny", ALL, 1e-5, RT_ACCURACY_STANDARD},
+        {"all, huge", ALL, 1e5, RT_ACCURACY_STANDARD},
+        {"all, robust", ALL, 1, RT_ACCURACY_ROBUST},
     };
     for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i) {
         tally sum = {0, 0, 0, 0};
-        compare_random(1000 * i, 11, sets[i].asked, sets[i].size, &sum);
+        compare_random(1000 * i, 11, sets[i].asked, sets[i].size, sets[i].level, &sum);
         assert_twins(sets[i].name, &sum, sets[i].asked & NEAREST);
     }
 }
@@ -346,7 +355,7 @@ static void a_wrong_kernel_is_noticed(void **state)
     for (size_t i = 0; i < sizeof mutants / sizeof *mutants; ++i) {
         tally sum = {0, 0, 0, 0};
         test_mutate_kernels(mutants[i].file, mutants[i].from, mutants[i].to);
-        compare_random(5000, 4, mutants[i].asked, 1, &sum);
+        compare_random(5000, 4, mutants[i].asked, 1, RT_ACCURACY_STANDARD, &sum);
         test_restore_kernels();
         if (sum.off + sum.hits == 0)
             fail_msg("nobody notices '%s' in the place of '%s'", mutants[i].to, mutants[i].from);
