@@ -85,6 +85,18 @@ INLINE void keep_in_box(real3 origin, real3 inverse, real tmin, real3 lo, real3 
 }
 
 #if RT_SPHERES
+INLINE void keep_in_sphere_box(const rays *r, real3 center, real radius, meeting *m)
+{
+    /* In float at every level, as the tree's boxes are. */
+    const floats cx = TO_FLOATS(center.x), cy = TO_FLOATS(center.y), cz = TO_FLOATS(center.z);
+    const floats reach = TO_FLOATS(radius);
+    const real3 lo = {FROM_FLOATS(cx - reach), FROM_FLOATS(cy - reach), FROM_FLOATS(cz - reach)};
+    const real3 hi = {FROM_FLOATS(cx + reach), FROM_FLOATS(cy + reach), FROM_FLOATS(cz + reach)};
+    keep_in_box(r->origin, r->inverse, r->tmin, lo, hi, m);
+}
+#endif
+
+#if RT_SPHERES && RT_ACCURACY < RT_ROBUST
 /* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
  * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
  * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
@@ -112,12 +124,7 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask act
     m->t = SELECT(far, near, MASK(near > r->tmin));
     m->u = m->v = (real)0.0f;
     m->det = (real)1.0f;
-    /* In float at every level, as the tree's boxes are. */
-    const floats cx = TO_FLOATS(center.x), cy = TO_FLOATS(center.y), cz = TO_FLOATS(center.z);
-    const floats reach = TO_FLOATS(radius);
-    const real3 lo = {FROM_FLOATS(cx - reach), FROM_FLOATS(cy - reach), FROM_FLOATS(cz - reach)};
-    const real3 hi = {FROM_FLOATS(cx + reach), FROM_FLOATS(cy + reach), FROM_FLOATS(cz + reach)};
-    keep_in_box(r->origin, r->inverse, r->tmin, lo, hi, m);
+    keep_in_sphere_box(r, center, radius, m);
     return 1;
 }
 #endif

@@ -31,10 +31,11 @@ rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
     out[2] = color.z;
 }
 
-/* Hit records of four words a pixel: primitive index, then t, u, v. */
+/* Hit records of four words a pixel: primitive index, then t, in the file's unit of length, u, v.
+ */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_index,
-                __global const number *hit_array, __global int *records)
+                __global const number *hit_array, __global int *records, const int unit_exponent)
 {
     const pixel p = tile_pixel(tile);
     if (!p.inside)
@@ -43,7 +44,7 @@ rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_in
     const vec3 tuv = LOAD3(hit_array, stride, i);
     __global int *out = records + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * 4;
     out[0] = hit_index[i];
-    out[1] = as_int((float)tuv.x);
+    out[1] = as_int((float)ldexp(tuv.x, -unit_exponent));
     out[2] = as_int((float)tuv.y);
     out[3] = as_int((float)tuv.z);
 }

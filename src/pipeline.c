@@ -381,6 +381,7 @@ static bool set_arguments(rt_renderer *r, const rt_scene *scene, enum rt_stage s
         r->changing[stage].tile = PUSH(a, no_tile);
         PUSH(a, r->stride);
         PUSH_BUFFERS(a, r, BUFFER_HIT_INDEX, BUFFER_HIT_ARRAY, BUFFER_RECORDS);
+        PUSH(a, r->unit_exponent);
         break;
     case RT_STAGE_SHADOW_RAYS:
     case RT_STAGE_AMBIENT_RAYS:

@@ -76,6 +76,7 @@ static bool remember(rt_renderer *r, const rt_scene *scene, const rt_effects *gi
     r->samples = scene->samples;
     r->depth = scene->depth;
     r->occlusion_samples = scene->occlusion_samples;
+    r->unit_exponent = scene->unit_exponent;
     r->number_size = scene->accuracy == RT_ACCURACY_DOUBLE ? sizeof(double) : sizeof(float);
     r->light_count = (int)scene->light_count;
     r->lights = calloc(scene->light_count + 1, sizeof *r->lights);

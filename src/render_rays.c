@@ -1,19 +1,44 @@
 /* Rays that a caller brings, through the same kernels that render. */
+#include <math.h>
+
 #include "render_state.h"
 
-static void stage_number(const rt_renderer *r, size_t i, float value)
+/* Exponents of the powers of two that a ray's lengths and direction are multiplied by on the way to
+ * the kernels: so a direction of any length is of moderate size there. */
+typedef struct ray_units {
+    int length, direction;
+} ray_units;
+
+static ray_units units_of(const rt_renderer *r, const rt_ray *ray)
 {
-    if (r->number_size == sizeof(double))
-        ((double *)r->staging)[i] = (double)value;
-    else
-        ((float *)r->staging)[i] = value;
+    const float *d = ray->direction;
+    const float most = fmaxf(fabsf(d[0]), fmaxf(fabsf(d[1]), fabsf(d[2])));
+    return (ray_units){r->unit_exponent, most > 0.0f && isfinite(most) ? -ilogbf(most) : 0};
 }
 
-/* Rounded to float where the kernels compute in double. */
-static float staged_number(const rt_renderer *r, size_t i)
+/* Component `c` of a ray as the kernels take it. */
+static double component_of(const rt_renderer *r, const rt_ray *ray, size_t c)
 {
-    return r->number_size == sizeof(double) ? (float)((double *)r->staging)[i]
-                                            : ((float *)r->staging)[i];
+    const ray_units u = units_of(r, ray);
+    if (c < RT_RAY_DX)
+        return ldexp((double)ray->origin[c], u.length);
+    if (c < RT_RAY_TMIN)
+        return ldexp((double)ray->direction[c - RT_RAY_DX], u.direction);
+    return ldexp((double)(c == RT_RAY_TMIN ? ray->tmin : ray->tmax), u.length - u.direction);
+}
+
+static void stage_number(const rt_renderer *r, size_t i, double value)
+{
+    if (r->number_size == sizeof(double))
+        ((double *)r->staging)[i] = value;
+    else
+        ((float *)r->staging)[i] = (float)value;
+}
+
+static double staged_number(const rt_renderer *r, size_t i)
+{
+    return r->number_size == sizeof(double) ? ((double *)r->staging)[i]
+                                            : (double)((float *)r->staging)[i];
 }
 
 /* Component `c` of `count` rays; the rest of the last block ends before it begins. */
@@ -22,12 +47,7 @@ static bool stage_component(rt_renderer *r, cl_mem target, const rt_ray *rays, s
 {
     for (size_t i = 0; i < padded; ++i) {
         const rt_ray *ray = &rays[i < count ? i : count - 1];
-        stage_number(r, i,
-                     c < RT_RAY_DX      ? ray->origin[c]
-                     : c < RT_RAY_TMIN  ? ray->direction[c - RT_RAY_DX]
-                     : c == RT_RAY_TMIN ? ray->tmin
-                     : i < count        ? ray->tmax
-                                        : -1.0f);
+        stage_number(r, i, i >= count && c == RT_RAY_TMAX ? -1.0 : component_of(r, ray, c));
     }
     return RT_CL(clEnqueueWriteBuffer(r->queue, target, CL_TRUE,
                                       c * (size_t)r->stride * r->number_size,
@@ -75,10 +95,14 @@ static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
         if (!read_values(r, r->tile[BUFFER_HIT_ARRAY], r->number_size, c * (size_t)r->stride, count,
                          status))
             return false;
-        for (size_t i = 0; i < count; ++i)
-            *(c == RT_HIT_T   ? &hits[i].t
-              : c == RT_HIT_U ? &hits[i].u
-                              : &hits[i].v) = staged_number(r, i);
+        for (size_t i = 0; i < count; ++i) {
+            const ray_units u = units_of(r, &rays[i]);
+            const double value = staged_number(r, i);
+            if (c == RT_HIT_T)
+                hits[i].t = (float)ldexp(value, u.direction - u.length);
+            else
+                *(c == RT_HIT_U ? &hits[i].u : &hits[i].v) = (float)value;
+        }
     }
     return true;
 }

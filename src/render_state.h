@@ -64,6 +64,7 @@ struct rt_renderer {
     rt_light *lights; /* owned: light_count, for their shadows */
     int light_count;
     int samples, depth, occlusion_samples;
+    int unit_exponent;  /* the scene's */
     size_t number_size; /* of a `number` of the kernels */
     cl_int stride;      /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
     int tile_side, lanes, packet;

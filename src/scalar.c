@@ -83,7 +83,8 @@ static void draw_pixel(const picture *p, int x, int y)
         const hit h = NAME(closest)(&p->world, &r);
         sum = plus(sum, NAME(radiance)(&p->world, &r, &h, &samples));
         if (sample == 0 && p->image->hits)
-            p->image->hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
+            p->image->hits[i] = (rt_hit){h.primitive, (float)LDEXP(h.t, -p->scene->unit_exponent),
+                                         (float)h.u, (float)h.v};
     }
     p->image->rgb[3 * i] = (float)(sum.x / count);
     p->image->rgb[3 * i + 1] = (float)(sum.y / count);

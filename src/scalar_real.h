@@ -143,6 +143,10 @@ void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real
 /* scalar_watertight.c: the robust test of a triangle; false for a miss. */
 bool NAME(meet_watertight)(const rt_triangle *triangle, const ray *r, int cull, hit *h);
 
+/* scalar_sphere.c: the roots of |origin + t direction - center| = radius, the nearer first; false
+ * without any. Hit or miss is as in exact arithmetic, but for rays that all but touch. */
+bool NAME(robust_roots)(const ray *r, vec center, real radius, real *near, real *far);
+
 /* Whether the scene's level asks for the robust tests; in double they are the only ones. */
 static inline bool is_robust(const rt_scene *scene)
 {

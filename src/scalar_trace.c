@@ -121,7 +121,9 @@ static void meet_sphere(const rt_scene *scene, const ray *r, int primitive, hit 
     real near, far;
     const rt_sphere *sphere = &scene->spheres[primitive];
     const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
-    if (!sphere_roots(r, center, (real)sphere->radius, &near, &far))
+    const real radius = (real)sphere->radius;
+    if (!(is_robust(scene) ? NAME(robust_roots)(r, center, radius, &near, &far)
+                           : sphere_roots(r, center, radius, &near, &far)))
         return;
     take(scene, r, (hit){primitive, near > r->tmin ? near : far, 0, 0}, best);
 }

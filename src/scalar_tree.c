@@ -199,10 +199,17 @@ void NAME(trace)(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit
     scalar_world world = NAME(world)(scene);
     for (size_t i = 0; i < count; ++i) {
         const float *o = rays[i].origin, *d = rays[i].direction;
-        const ray r = {vec_of(o[0], o[1], o[2]), vec_of(d[0], d[1], d[2]), (real)rays[i].tmin,
-                       (real)rays[i].tmax};
+        const vec direction = moderate(vec_of(d[0], d[1], d[2]));
+        /* t is in units of the direction, whose own are a power of two now. */
+        const real most = FMAX(FABS((real)d[0]), FMAX(FABS((real)d[1]), FABS((real)d[2])));
+        const int unit = scene->unit_exponent;
+        const int along = most > 0 && isfinite(most) ? unit + ILOGB(most) : unit;
+        const ray r = {{LDEXP((real)o[0], unit), LDEXP((real)o[1], unit), LDEXP((real)o[2], unit)},
+                       direction,
+                       LDEXP((real)rays[i].tmin, along),
+                       LDEXP((real)rays[i].tmax, along)};
         const hit h = NAME(closest)(&world, &r);
-        hits[i] = (rt_hit){h.primitive, (float)h.t, (float)h.u, (float)h.v};
+        hits[i] = (rt_hit){h.primitive, (float)LDEXP(h.t, -along), (float)h.u, (float)h.v};
     }
     NAME(world_clear)(&world);
 }

@@ -54,6 +54,10 @@ enum rt_filter { RT_FILTER_BOX, RT_FILTER_TENT };
 typedef struct rt_scene {
     int width, height; /* pixels */
     enum rt_accuracy accuracy;
+    /* All lengths and coordinates below are the file's times 2^unit_exponent, which is 0 but for
+     * very small and very large scenes; what is per length is divided by it. t of rays that a
+     * caller brings, and of hit records, is the file's. */
+    int unit_exponent;
     int samples; /* rays a pixel, 1 up */
     enum rt_filter filter;
     int depth; /* mirror and refracted rays in a row, at most */
@@ -120,6 +124,11 @@ bool rt_scene_set_uvs(rt_scene *scene, const float *uvs, rt_status *status);
 /* Makes room at once for so many triangles more, and records of normals. */
 bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
                                 rt_status *status);
+
+/* Brings a scene that is complete to a unit of length (unit_exponent) in which the arithmetic of
+ * float has room: largest coordinate of primitives and eye from 2^-10 to 2^38. Exact, but for what
+ * is 2^126 times smaller than the largest. A scene read from a file has been through it. */
+void rt_scene_choose_unit(rt_scene *scene);
 
 /* A material for the given coefficients (ka, kd, ks: r g b each). */
 rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],

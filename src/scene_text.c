@@ -161,5 +161,6 @@ bool rt_scene_text_read(rt_scene *scene, const char *path, rt_status *status)
                        p.degenerate_place.file, p.degenerate_place.line, p.degenerate_count);
     rt_scene_settle_shadows(&p);
     rt_scene_forget_materials(&p);
+    rt_scene_choose_unit(scene);
     return good;
 }
