@@ -55,23 +55,23 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
 #define PROBE_SET_PARAMETERS const rt_tile tile, __global const int *home, __global const int *marks
 #define PROBE_SET(base, turn)                                                                      \
     {                                                                                              \
-        .tile = tile, .dimension = (base), .sample = (turn).first + nth,                           \
+        .tile = tile, .dimension = (base), .sample = (turn).first + SAMPLE_OF(turn),               \
         .pixel_sample = (turn).sample, .home = home, .marks = marks                                \
     }
 #else
 #define PROBE_SET_PARAMETERS const rt_tile tile
 #define PROBE_SET(base, turn)                                                                      \
     {                                                                                              \
-        .tile = tile, .dimension = (base), .sample = (turn).first + nth,                           \
+        .tile = tile, .dimension = (base), .sample = (turn).first + SAMPLE_OF(turn),               \
         .pixel_sample = (turn).sample                                                              \
     }
 #endif
 #endif
 
-/* A work-item's first ray, and which of the launch's samples its probes are. */
+/* A work-item's first ray and first probe, and which of the launch's samples its probes are. */
+#define SAMPLE_OF(turn) ((int)get_global_id(0) / ((turn).rays / RT_ITEM_RAYS))
 #define PROBE_ITEM(turn)                                                                           \
     const int items = (turn).rays / RT_ITEM_RAYS;                                                  \
-    const int nth = (int)get_global_id(0) / items;                                                 \
     const size_t first = (size_t)((int)get_global_id(0) % items) * RT_ITEM_RAYS;                   \
     const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS
 #endif

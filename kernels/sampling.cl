@@ -85,7 +85,7 @@ INLINE void disk(number u, number v, number *x, number *y)
     const int flat = fabs(a) > (b < (number)0.0f ? -b : b);
     const number r = flat ? a : b;
     const number q = r == (number)0.0f ? (number)0.0f : DIVIDE_1(flat ? b : a, r);
-    const number phi = (number)LITERAL(0.78539816) * q;
+    const number phi = (number)LITERAL(0.78539816339744830962) * q;
     const number z = phi * phi;
     const number one = (number)1.0f;
     number sine = fma(z, (number)(LITERAL(1.0) / LITERAL(362880.0)),

@@ -225,14 +225,10 @@ INLINE void add_to_path(const shading *w, size_t i, vec3 color)
     const size_t step = w->hits.step;
     const size_t slot = (size_t)w->home[i];
     vec3 tint = LOAD3(w->paths + RT_PATH_TINT_R * step, step, slot);
-#if RT_REFRACT
-    const int medium = w->marks[RT_MARK_MEDIUM * step + slot];
-#else
-    const int medium = RT_OUTSIDE;
-#endif
-    number clear = 1.0f;
 #if RT_FOG || RT_ABSORB
+    const int medium = RT_REFRACT ? w->marks[RT_MARK_MEDIUM * step + slot] : RT_OUTSIDE;
     const number t = w->hits.hit_array[RT_HIT_T * step + i];
+    number clear = 1.0f;
 #endif
 #if RT_ABSORB
     if (ON(ABSORB) && medium != RT_OUTSIDE) {
