@@ -8,8 +8,12 @@
 
 #include "image.h"
 
+/* A reader of its own, for all formats: the program's knows those of textures. */
 #define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
 #define STBI_FAILURE_USERMSG
+/* Told of at the end of the file, so it stays. */
+#pragma GCC diagnostic ignored "-Wunused-function"
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
