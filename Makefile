@@ -129,7 +129,7 @@ check-kernels: deps-clang
 # Side-by-side measurements; make bench BENCH="--level 2 --size 64 --spheres 100" tries them out.
 BENCH ?=
 BENCH_JSON := $(BUILD)/bench.json
-BENCH_NAMES := bench_embree bench_levels bench_scaling bench_process bench_report nothing
+BENCH_NAMES := bench_embree bench_levels bench_effects bench_scaling bench_process bench_report nothing
 BENCH_PROGRAMS := $(addprefix $(BUILD)/bench/,$(BENCH_NAMES))
 BENCH_HELPERS := $(patsubst tests/bench/%.c,$(BUILD)/bench/%.o,$(filter-out \
                  $(BENCH_NAMES:%=tests/bench/%.c),$(wildcard tests/bench/*.c)))
@@ -140,7 +140,7 @@ bench: deps bench-deps
 
 # A measurement that fails does not hide the others.
 bench-run: $(BUILD)/rt $(BENCH_PROGRAMS)
-	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_levels bench_scaling bench_process; do \
+	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_levels bench_effects bench_scaling bench_process; do \
 	    $(BUILD)/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
 	done; \
 	$(BUILD)/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
