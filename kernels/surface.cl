@@ -3,6 +3,9 @@
  * A next ray must neither hit the very primitive that it starts on nor start behind a neighbour.
  * - It starts on the primitive, not on the ray: on a sphere at center + radius * normal, on a
  *   triangle at the sum of its corners by weight. `t` would bring in the error of the whole way.
+ *   Where t itself is good to a few ulp (robust spheres, and double's) the better of the two
+ * counts: the floor of a small scene may be a sphere so large that center and radius cannot tell
+ * where its surface is as well as a ray from nearby can.
  * - On a triangle the weights w, u, v are drawn toward 1/3 by RT_START_DRAW, so that a start at an
  *   edge, where rounding could put it across, lies inside by more than rounding can do.
  * - The start is then moved along the geometric normal, to the side that the ray leaves on, by
@@ -15,6 +18,9 @@
 /* In units of the number type's half ulp at 1. */
 #define RT_START_BOUND (8 * RT_HALF_ULP)
 #define RT_START_DRAW (32 * RT_HALF_ULP)
+/* Of |origin| + |point|, for a point on the ray: 8 of t, 2 of the point, and room for the next
+ * test. */
+#define RT_POINT_BOUND (32 * RT_HALF_ULP)
 
 typedef struct surface {
     vec3 point;  /* where the ray is at t: what is shaded */
@@ -40,7 +46,8 @@ INLINE number side_toward(vec3 normal, vec3 direction)
 #define SUM_OF_SIZES(a, b, c) (fabs(a) + ((b) < (number)0.0f ? -(b) : (b)) + fabs(c))
 
 #if RT_SPHERES
-INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 direction, surface *s)
+INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 origin,
+                           vec3 direction, surface *s)
 {
     const vec3 center = {block->cx[k], block->cy[k], block->cz[k]};
     const number radius = block->radius[k];
@@ -53,6 +60,16 @@ INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 di
         (number)RT_START_BOUND * EXTENT_ALONG(normal, fma(radius, fabs(normal.x), fabs(center.x)),
                                               fma(radius, fabs(normal.y), fabs(center.y)),
                                               fma(radius, fabs(normal.z), fabs(center.z)));
+#if RT_ACCURACY >= 2
+    const number lift =
+        (number)RT_POINT_BOUND * EXTENT_ALONG(normal, fabs(origin.x) + fabs(s->point.x),
+                                              fabs(origin.y) + fabs(s->point.y),
+                                              fabs(origin.z) + fabs(s->point.z));
+    const int is_better = lift < s->lift;
+    s->start = (vec3){is_better ? s->point.x : s->start.x, is_better ? s->point.y : s->start.y,
+                      is_better ? s->point.z : s->start.z};
+    s->lift = is_better ? lift : s->lift;
+#endif
     s->facing = SCALE(normal, side);
     s->normal = SCALE(normal, side); /* no copy: a struct in memory ends vectorising */
     s->outside = side > 0.0f;
@@ -157,7 +174,7 @@ INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, sur
     s->point = ADD_SCALED(direction, t, origin);
 #if RT_SPHERES
     if (index < w->sphere_count)
-        sphere_surface(w->spheres + slot / RT_BLOCK_PRIMITIVES, place, direction, s);
+        sphere_surface(w->spheres + slot / RT_BLOCK_PRIMITIVES, place, origin, direction, s);
 #endif
 #if RT_SPHERES && RT_TRIANGLES
     else

@@ -8,6 +8,7 @@
 
 #define START_BOUND (8 * HALF_ULP)
 #define START_DRAW (32 * HALF_ULP)
+#define POINT_BOUND (32 * HALF_ULP)
 
 static vec triangle_corner(const rt_triangle *t, int corner)
 {
@@ -52,9 +53,9 @@ static vec magnitudes(vec a)
 }
 
 /* How far a box reaches along the normal whose half sides are the bound times `sizes`. */
-static real lift_for(vec sizes, vec normal)
+static real lift_for(real bound, vec sizes, vec normal)
 {
-    return START_BOUND * dot(sizes, magnitudes(normal));
+    return bound * dot(sizes, magnitudes(normal));
 }
 
 /* A weight of a corner, a little nearer to the triangle's middle. */
@@ -74,7 +75,17 @@ static surface on_sphere(const rt_scene *scene, const ray *r, const hit *h)
     face(&s, outward, r->direction);
     const real radius = (real)sphere->radius;
     s.foot = add_scaled(outward, radius, center);
-    s.lift = lift_for(add_scaled(magnitudes(outward), radius, magnitudes(center)), outward);
+    s.lift =
+        lift_for(START_BOUND, add_scaled(magnitudes(outward), radius, magnitudes(center)), outward);
+    if (is_robust(scene)) {
+        /* t is good to a few ulp: near a huge sphere the point on the ray is the better one. */
+        const vec sizes = plus(magnitudes(r->origin), magnitudes(s.point));
+        const real lift = lift_for(POINT_BOUND, sizes, outward);
+        if (lift < s.lift) {
+            s.foot = s.point;
+            s.lift = lift;
+        }
+    }
     /* Longitude from the z axis, latitude from the south pole up. */
     s.u = ATAN2(outward.x, outward.z) / (2 * pi) + (real)0.5;
     s.v = ASIN(FMAX(-1, FMIN(outward.y, 1))) / pi + (real)0.5;
@@ -93,7 +104,8 @@ static surface on_triangle(const rt_scene *scene, const ray *r, const hit *h)
     const vec c = triangle_corner(triangle, 2);
     const real to_b = drawn(h->u), to_c = drawn(h->v);
     s.foot = add_scaled(c, to_c, add_scaled(b, to_b, times(a, (real)1 - to_b - to_c)));
-    s.lift = lift_for(plus(plus(magnitudes(a), magnitudes(b)), magnitudes(c)), s.facing);
+    s.lift =
+        lift_for(START_BOUND, plus(plus(magnitudes(a), magnitudes(b)), magnitudes(c)), s.facing);
     if (scene->triangle_normals[i] >= 0) {
         const float *n = scene->normals + RT_NORMAL_COMPONENTS * (size_t)scene->triangle_normals[i];
         s.normal = interpolated_normal(n, h->u, h->v, s.facing);
