@@ -17,13 +17,13 @@
 /* Where next rays start on the surface as it was computed, not moved at all. */
 static const hard_naive no_offset = {
     "no offset", NULL, "surface.cl",
-    "const number lift = DOT(s->facing, side) > 0.0f ? s->lift : -s->lift;",
+    "const number lift = DOT(s->facing, *side) > 0.0f ? s->lift : -s->lift;",
     "const number lift = 0.0f * s->lift;"};
 /* The constant that one finds in textbooks. */
 static const hard_naive fixed_offset = {
     "offset 1e-4", NULL, "surface.cl",
-    "const number lift = DOT(s->facing, side) > 0.0f ? s->lift : -s->lift;",
-    "const number lift = DOT(s->facing, side) > 0.0f ? 1e-4f : -1e-4f;"};
+    "const number lift = DOT(s->facing, *side) > 0.0f ? s->lift : -s->lift;",
+    "const number lift = DOT(s->facing, *side) > 0.0f ? 1e-4f : -1e-4f;"};
 
 /* A scene by its text, to whose material more primitives can be added. */
 static void read_scene(rt_scene *scene, const char *format, ...)
