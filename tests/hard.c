@@ -203,17 +203,23 @@ void hard_scene(rt_scene *scene)
     assert_good(rt_scene_add_material(scene, &material, &status), &status);
 }
 
+/* A scene that was read already has a unit of its own. */
 void hard_add_triangle(rt_scene *scene, const float corners[9])
 {
     rt_triangle triangle;
     rt_status status = RT_STATUS_INIT;
-    memcpy(&triangle, corners, sizeof triangle);
+    float scaled[9];
+    for (int i = 0; i < 9; ++i)
+        scaled[i] = ldexpf(corners[i], scene->unit_exponent);
+    memcpy(&triangle, scaled, sizeof triangle);
     assert_good(rt_scene_add_triangle(scene, &triangle, NULL, 0, &status), &status);
 }
 
 void hard_add_sphere(rt_scene *scene, float x, float y, float z, float radius)
 {
-    const rt_sphere sphere = {x, y, z, radius};
+    const int unit = scene->unit_exponent;
+    const rt_sphere sphere = {ldexpf(x, unit), ldexpf(y, unit), ldexpf(z, unit),
+                              ldexpf(radius, unit)};
     rt_status status = RT_STATUS_INIT;
     assert_good(rt_scene_add_sphere(scene, &sphere, 0, &status), &status);
 }
