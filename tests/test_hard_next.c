@@ -190,6 +190,8 @@ static void measure_plates(const hard_way *way, const void *of, double figures[]
 static void plates(void **state)
 {
     (void)state;
+    /* Other than at size 1 the constant offset is no naive variant: a small scene's unit makes it
+     * one that fits. */
     static const double sizes[] = {1.0, 1e-3, 1e4};
     for (int i = 0; i < 3; ++i) {
         char name[64];
@@ -197,7 +199,7 @@ static void plates(void **state)
         const hard_case c = {.row = 22,
                              .name = name,
                              .figures = {{"lit through the upper a million", {TOLD, TOLD, 0, 0}}},
-                             .naives = {sizes[i] > 100 ? NULL : &fixed_offset},
+                             .naives = {i ? NULL : &fixed_offset},
                              .measure = measure_plates,
                              .of = &sizes[i]};
         hard_hold(&c);
