@@ -29,9 +29,6 @@ static bool is_there(enum rt_accuracy level)
     return level != RT_ACCURACY_DOUBLE || test_device()->has_fp64;
 }
 
-/* The last level whose promises are held against it. */
-#define LEVEL_HELD RT_ACCURACY_STANDARD
-
 /* Written so that NaN is out. */
 static bool is_lawful(double figure, double gate)
 {
@@ -110,7 +107,7 @@ void hard_hold(const hard_case *c)
                 printf(" no fp64 |");
                 continue;
             }
-            const double gate = level <= LEVEL_HELD ? figure->gates[level] : HARD_REPORT;
+            const double gate = figure->gates[level];
             print_cell(values[level][f], gate);
             holds = holds && is_lawful(values[level][f], gate);
         }
