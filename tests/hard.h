@@ -41,8 +41,9 @@ typedef struct hard_case {
     int row; /* of the README's table */
     const char *name;
     hard_figure figures[HARD_FIGURES]; /* ended by one without `what` */
-    /* Each must break the robust gate of some figure; ended by NULL. */
+    /* Each must break the gate of some figure at naive_level, robust if not set; ended by NULL. */
     const hard_naive *naives[HARD_NAIVES];
+    enum rt_accuracy naive_level;
     void (*measure)(const hard_way *way, const void *of, double figures[]);
     const void *of;
     bool by_brute_force; /* no tree */
@@ -69,7 +70,7 @@ typedef struct hard_tracer {
     rt_renderer *renderer;
 } hard_tracer;
 
-/* Sets the scene's level, and makes the renderer. */
+/* Makes the renderer, for a scene in the file's unit. */
 void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene);
 void hard_trace(hard_tracer *tracer, const rt_ray *rays, size_t count, rt_hit *hits);
 void hard_close(hard_tracer *tracer);
@@ -83,7 +84,7 @@ void hard_draw(const hard_way *way, rt_scene *scene, rt_image *image);
 /* Rays that are traced at a time. */
 #define HARD_CHUNK 65536
 
-/* An empty scene with one material. */
+/* An empty scene with one material, and primitives for a scene that may have a unit of length. */
 void hard_scene(rt_scene *scene);
 void hard_add_triangle(rt_scene *scene, const float corners[9]);
 void hard_add_sphere(rt_scene *scene, float x, float y, float z, float radius);

