@@ -6,8 +6,13 @@
 #include "file.h"
 #include "kernel_text.h"
 #include "program.h"
+#include "render.h"
+#include "tiles.h"
 
 #define SOURCE "tests/bench/fused.cl"
+#define TILE_BYTES ((size_t)RT_TILE_DEFAULT * RT_TILE_DEFAULT * RT_COLOR_COMPONENTS * sizeof(float))
+/* Tiles whose times are taken at once. */
+#define TILES_AT_ONCE 64
 
 static bool report_log(const bench_fused *f, const rt_device *device, rt_status *status)
 {
@@ -49,6 +54,7 @@ static bool build(bench_fused *f, const rt_device *device, const rt_scene *scene
 
 static bool set_arguments(const bench_fused *f, const rt_scene *scene, rt_status *status)
 {
+    const rt_tile no_tile = {0, 0, 0, 0};
     const rt_frame frame = rt_scene_frame(scene);
     const rt_surround around = {scene->background.x, scene->background.y, scene->background.z,
                                 scene->ambient.x,    scene->ambient.y,    scene->ambient.z};
@@ -56,7 +62,8 @@ static bool set_arguments(const bench_fused *f, const rt_scene *scene, rt_status
     const struct {
         const void *value;
         size_t size;
-    } arguments[] = {{&frame, sizeof frame},
+    } arguments[] = {{&no_tile, sizeof no_tile},
+                     {&frame, sizeof frame},
                      {&s->nodes, sizeof s->nodes},
                      {&s->order, sizeof s->order},
                      {&s->spheres, sizeof s->spheres},
@@ -82,15 +89,14 @@ bool bench_fused_make(bench_fused *f, const rt_device *device, const rt_scene *s
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                                 (cl_context_properties)device->platform, 0};
     cl_int error = CL_SUCCESS;
-    *f = (bench_fused){.pixels = (size_t)scene->width * (size_t)scene->height};
+    *f = (bench_fused){.width = scene->width, .height = scene->height};
     f->context = clCreateContext(properties, 1, &device->id, NULL, NULL, &error);
     if (!RT_CL_MADE(error, "clCreateContext", status))
         return false;
     f->queue = clCreateCommandQueue(f->context, device->id, CL_QUEUE_PROFILING_ENABLE, &error);
     return RT_CL_MADE(error, "clCreateCommandQueue", status) &&
            build(f, device, scene, bvh, packet, status) &&
-           rt_buffer_make(f->context, CL_MEM_WRITE_ONLY,
-                          f->pixels * RT_COLOR_COMPONENTS * sizeof(float), &f->picture, status) &&
+           rt_buffer_make(f->context, CL_MEM_WRITE_ONLY, TILE_BYTES, &f->picture, status) &&
            set_arguments(f, scene, status);
 }
 
@@ -110,25 +116,62 @@ void bench_fused_clear(bench_fused *f)
     *f = (bench_fused){.context = NULL};
 }
 
+/* Waits for the kernels so far and adds up their times. */
+static bool land(bench_fused *f, cl_event *events, size_t count, double *seconds, rt_status *status)
+{
+    bool good = RT_CL(clFinish(f->queue), status);
+    for (size_t i = 0; i < count; ++i) {
+        cl_ulong start = 0, end = 0;
+        good = good &&
+               RT_CL(clGetEventProfilingInfo(events[i], CL_PROFILING_COMMAND_START, sizeof start,
+                                             &start, NULL),
+                     status) &&
+               RT_CL(clGetEventProfilingInfo(events[i], CL_PROFILING_COMMAND_END, sizeof end, &end,
+                                             NULL),
+                     status);
+        *seconds += 1e-9 * (double)(end - start);
+        clReleaseEvent(events[i]);
+    }
+    return good;
+}
+
+static bool start_tile(bench_fused *f, const rt_tile *tile, float *rgb, cl_event *event,
+                       rt_status *status)
+{
+    const size_t pixel = RT_COLOR_COMPONENTS * sizeof *rgb;
+    const size_t global = (size_t)tile->width * (size_t)tile->height / RT_BLOCK_RAYS, local = 1;
+    const size_t source[3] = {0, 0, 0};
+    const size_t target[3] = {(size_t)tile->x * pixel, (size_t)tile->y, 0};
+    const size_t region[3] = {(size_t)tile->width * pixel, (size_t)tile->height, 1};
+    return RT_CL(clSetKernelArg(f->kernel, 0, sizeof *tile, tile), status) &&
+           RT_CL(clEnqueueNDRangeKernel(f->queue, f->kernel, 1, NULL, &global, &local, 0, NULL,
+                                        event),
+                 status) &&
+           RT_CL(clEnqueueReadBufferRect(f->queue, f->picture, CL_FALSE, source, target, region,
+                                         region[0], 0, (size_t)f->width * pixel, 0, rgb, 0, NULL,
+                                         NULL),
+                 status) &&
+           RT_CL(clFlush(f->queue), status);
+}
+
 bool bench_fused_draw(bench_fused *f, float *rgb, double *seconds, rt_status *status)
 {
-    const size_t global = f->pixels / RT_BLOCK_RAYS, local = 1;
-    const size_t bytes = f->pixels * RT_COLOR_COMPONENTS * sizeof *rgb;
-    cl_ulong start = 0, end = 0;
-    cl_event event = NULL;
-    const bool good =
-        RT_CL(
-            clEnqueueNDRangeKernel(f->queue, f->kernel, 1, NULL, &global, &local, 0, NULL, &event),
-            status) &&
-        RT_CL(clEnqueueReadBuffer(f->queue, f->picture, CL_TRUE, 0, bytes, rgb, 0, NULL, NULL),
-              status) &&
-        RT_CL(
-            clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, NULL),
-            status) &&
-        RT_CL(clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL),
-              status);
-    if (event)
-        clReleaseEvent(event);
-    *seconds = 1e-9 * (double)(end - start);
-    return good;
+    cl_event events[TILES_AT_ONCE] = {NULL};
+    size_t count = 0;
+    rt_tiles tiles;
+    rt_tiles_init(&tiles, f->width, f->height, RT_TILE_DEFAULT, 1);
+    rt_taker taker = {&tiles, 0};
+    rt_tile tile;
+    bool good = true;
+    *seconds = 0.0;
+    while (good && rt_tiles_take(&taker, &tile)) {
+        good = start_tile(f, &tile, rgb, &events[count], status);
+        count += events[count] != NULL;
+        if (count == TILES_AT_ONCE) {
+            good = land(f, events, count, seconds, status) && good;
+            for (; count > 0; --count)
+                events[count - 1] = NULL;
+        }
+    }
+    return land(f, events, count, seconds, status) && good;
 }

@@ -1,4 +1,4 @@
-/* A whole picture in one kernel, for scenes of spheres and triangles under Phong's formula and
+/* A picture's tile in one kernel, for scenes of spheres and triangles under Phong's formula and
  * nothing else: what somebody would write who wants that one picture and no stages. It stands
  * behind the sources in kernels/, so that it makes the same decisions on the way to a hit; between
  * ray and pixel nothing goes through global memory. A work-item is a block of 8x8 pixels. */
@@ -121,8 +121,8 @@ INLINE void paint(block *all, const rt_frame *frame, const world *w, const paint
 }
 
 __kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
-fused(const rt_frame frame, __global const rt_node *nodes, __global const int *order,
-      __global const rt_sphere_block *spheres, const int sphere_blocks,
+fused(const rt_tile tile, const rt_frame frame, __global const rt_node *nodes,
+      __global const int *order, __global const rt_sphere_block *spheres, const int sphere_blocks,
       __global const rt_triangle_block *triangles, const int triangle_blocks,
       const int sphere_count, __global const int *material_of,
       __global const rt_material *materials, __global const rt_light *lights,
@@ -130,18 +130,18 @@ fused(const rt_frame frame, __global const rt_node *nodes, __global const int *o
 {
     const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
     const painting with = {around, material_of, materials, lights, sphere_count};
-    const int across = frame.width / RT_BLOCK_SIDE, at = (int)get_global_id(0);
+    const int across = tile.width / RT_BLOCK_SIDE, at = (int)get_global_id(0);
     const int left = at % across * RT_BLOCK_SIDE, top = at / across * RT_BLOCK_SIDE;
     block all;
-    aim(&all, &frame, left, top);
+    aim(&all, &frame, tile.x + left, tile.y + top);
     __global float *corner =
-        picture + ((size_t)top * (size_t)frame.width + (size_t)left) * RT_COLOR_COMPONENTS;
+        picture + ((size_t)top * (size_t)tile.width + (size_t)left) * RT_COLOR_COMPONENTS;
     const int is_sky = !meet_all(&all, &frame, &w);
     if (!is_sky)
         paint(&all, &frame, &w, &with);
     for (int k = 0; k < RT_BLOCK_RAYS; ++k) {
         __global float *out =
-            corner + (RT_BLOCK_ROW(k) * frame.width + RT_BLOCK_COLUMN(k)) * RT_COLOR_COMPONENTS;
+            corner + (RT_BLOCK_ROW(k) * tile.width + RT_BLOCK_COLUMN(k)) * RT_COLOR_COMPONENTS;
         out[0] = is_sky ? around.background_r : all.r[k];
         out[1] = is_sky ? around.background_g : all.g[k];
         out[2] = is_sky ? around.background_b : all.b[k];

@@ -16,9 +16,9 @@ typedef struct bench_fused {
     cl_command_queue queue;
     cl_program program;
     cl_kernel kernel;
-    cl_mem picture;
+    cl_mem picture; /* a tile of it: more would not stay in the caches */
     rt_device_scene scene;
-    size_t pixels;
+    int width, height;
 } bench_fused;
 
 /* For a scene of spheres and triangles without effects at standard, whose width and height are
@@ -28,7 +28,8 @@ bool bench_fused_make(bench_fused *fused, const rt_device *device, const rt_scen
                       const rt_bvh *bvh, int packet, rt_status *status);
 void bench_fused_clear(bench_fused *fused);
 
-/* Draws into rgb[0 .. 3 * pixels); the seconds are those of the kernel alone. */
+/* Draws into rgb, row by row, in tiles of the stages' size; the seconds are those of the kernel
+ * alone. */
 bool bench_fused_draw(bench_fused *fused, float *rgb, double *seconds, rt_status *status);
 
 #endif
