@@ -150,24 +150,38 @@ static cl_program compile(const rt_recipe *r, rt_status *status)
     return NULL;
 }
 
-cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
-                            rt_status *status)
+/* The recipe's program, from the cache or the compiler. */
+static cl_program build(rt_recipe *recipe, rt_status *status)
 {
-    rt_recipe recipe = {context, device, options, rt_kernel_text, rt_kernel_text_length};
     const char *folder = getenv("RT_KERNELS");
     if (folder && *folder) {
         /* Kernels that someone is working on: each is another program, and not kept. */
-        char *text = read_folder(folder, &recipe.length, status);
-        recipe.text = text;
-        cl_program program = text ? compile(&recipe, status) : NULL;
+        char *text = read_folder(folder, &recipe->length, status);
+        recipe->text = text;
+        cl_program program = text ? compile(recipe, status) : NULL;
         free(text);
         return program;
     }
-    cl_program program = rt_program_cache_load(&recipe);
+    cl_program program = rt_program_cache_load(recipe);
     if (program)
         return program;
-    program = compile(&recipe, status);
+    program = compile(recipe, status);
     if (program)
-        rt_program_cache_save(&recipe, program);
+        rt_program_cache_save(recipe, program);
+    return program;
+}
+
+cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
+                            rt_status *status)
+{
+    const char *more = getenv("RT_BUILD_OPTIONS");
+    char *all = NULL;
+    if (asprintf(&all, "%s%s%s", options, more && *more ? " " : "", more ? more : "") < 0) {
+        rt_status_no_memory(status, "kernels");
+        return NULL;
+    }
+    rt_recipe recipe = {context, device, all, rt_kernel_text, rt_kernel_text_length};
+    cl_program program = build(&recipe, status);
+    free(all);
     return program;
 }

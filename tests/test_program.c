@@ -173,6 +173,22 @@ static void a_cache_that_cannot_be_used_is_no_error(void **state)
     }
 }
 
+/* Options that are added reach the compiler, and make another program in the cache. */
+static void options_from_outside(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    const char *folder = test_path("cache");
+    setenv("RT_CACHE_DIR", folder, 1);
+    assert_builds();
+    setenv("RT_BUILD_OPTIONS", "-DRT_SPHERES=2", 1);
+    assert_null(build("-DRT_LANES=1", &status));
+    unsetenv("RT_BUILD_OPTIONS");
+    assert_non_null(strstr(status.text, "options: -DRT_LANES=1 -DRT_SPHERES=2\n"));
+    rt_status_clear(&status);
+    assert_builds();
+}
+
 static void errors_have_names(void **state)
 {
     (void)state;
@@ -194,6 +210,7 @@ int main(void)
         cmocka_unit_test(a_missing_kernel_folder),
         cmocka_unit_test(a_program_is_kept),
         cmocka_unit_test(a_cache_that_cannot_be_used_is_no_error),
+        cmocka_unit_test(options_from_outside),
         cmocka_unit_test(errors_have_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
