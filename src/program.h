@@ -31,8 +31,9 @@ void rt_program_options(const rt_effects *effects, const rt_walk *walk, enum rt_
                         char *options);
 
 /* Builds the kernels. Their text is the one embedded in the executable, or that of the files in the
- * folder RT_KERNELS where that is set; RT_BUILD_OPTIONS is added to the options. On failure the status holds device, driver, options and the
- * whole build log; NULL is returned. The caller releases the program. */
+ * folder RT_KERNELS where that is set; RT_BUILD_OPTIONS is added to the options. On failure the
+ * status holds device, driver, options and the whole build log; NULL is returned. The caller
+ * releases the program. */
 cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
                             rt_status *status);
 

@@ -18,23 +18,52 @@ static rt_hit hits[HARD_CHUNK];
 
 /* ---- Refused ---- */
 
-/* Texts whose third line must be refused, by its number. */
-static void expect_refused(const char *const *texts, size_t count)
+typedef struct text_list {
+    const char *const *texts;
+    size_t count;
+} text_list;
+
+/* Whether a text's third line is refused, by its number. */
+static bool is_refused(const char *text)
 {
-    for (size_t i = 0; i < count; ++i) {
-        rt_scene scene;
-        rt_status status = RT_STATUS_INIT;
-        char *whole = NULL;
-        const char *path = test_path("refused.txt");
-        assert_true(asprintf(&whole, "rt 1\nmaterial m\n%s\n", texts[i]) > 0);
-        test_write_text(path, whole);
-        free(whole);
-        rt_scene_init(&scene);
-        if (rt_scene_text_read(&scene, path, &status) || !strstr(status.text, "refused.txt:3:"))
-            fail_msg("taken, or refused without its line: %s", texts[i]);
-        rt_status_clear(&status);
-        rt_scene_clear(&scene);
-    }
+    rt_scene scene;
+    rt_status status = RT_STATUS_INIT;
+    char *whole = NULL;
+    const char *path = test_path("refused.txt");
+    assert_true(asprintf(&whole, "rt 1\nmaterial m\n%s\n", text) > 0);
+    test_write_text(path, whole);
+    free(whole);
+    rt_scene_init(&scene);
+    const bool refused = !rt_scene_text_read(&scene, path, &status) && status.text &&
+                         strstr(status.text, "refused.txt:3:");
+    rt_status_clear(&status);
+    rt_scene_clear(&scene);
+    return refused;
+}
+
+/* The reader refuses alike at every level. */
+static void measure_refused(const hard_way *way, const void *of, double figures[])
+{
+    const text_list *list = of;
+    figures[0] = 0.0;
+    for (size_t i = 0; i < list->count; ++i)
+        if (!is_refused(list->texts[i])) {
+            figures[0] += 1.0;
+            print_error("%s: taken, or refused without its line: %s\n", way->name, list->texts[i]);
+        }
+}
+
+static void hold_refused(int row, const char *name, const text_list *list)
+{
+    const hard_case c = {.row = row,
+                         .name = name,
+                         .figures = {{"not refused with their line", {0, 0, 0, 0}}},
+                         .naives = {NULL},
+                         .measure = measure_refused,
+                         .of = list};
+    hard_hold(&c);
+    hard_finish();
+    assert_false(is_refused("sphere center 0 0 0 radius 1 material m"));
 }
 
 static void radii(void **state)
@@ -45,7 +74,8 @@ static void radii(void **state)
         "sphere center 0 0 0 radius -1 material m",   "sphere center 0 0 0 radius nan material m",
         "sphere center 0 0 0 radius inf material m",  "sphere center 0 0 0 radius 1e39 material m",
         "sphere center 0 0 0 radius 1e-46 material m"};
-    expect_refused(texts, sizeof texts / sizeof *texts);
+    hold_refused(20, "radii of 0, below, infinite, no number",
+                 &(text_list){texts, sizeof texts / sizeof *texts});
 }
 
 static void not_finite(void **state)
@@ -66,7 +96,8 @@ static void not_finite(void **state)
         "mesh \"m.obj\" material m scale inf",
         "mesh \"m.obj\" material m translate 0 nan 0",
         "mesh \"m.obj\" material m rotate 0 0 nan"};
-    expect_refused(texts, sizeof texts / sizeof *texts);
+    hold_refused(29, "coordinates and colours not finite",
+                 &(text_list){texts, sizeof texts / sizeof *texts});
 }
 
 /* A mesh's own numbers, and those that its matrix makes infinite. */

@@ -1,10 +1,12 @@
 /* Closed meshes hold water, and no ray crosses one twice at a time: rows 1 to 8 of the hard cases.
  * That a ray from inside crosses a closed mesh once is topology, true whatever is rounded. */
+#define _GNU_SOURCE
 #include "hard_mesh.h"
 #include "hard_naive.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #define BALL 10 /* 800 triangles */
 #define SMALL 3 /* 72, for brute force */
@@ -208,6 +210,82 @@ static void extreme_scales(void **state)
     hard_finish();
 }
 
+/* ---- Other builds ---- */
+
+/* What a build may do to arithmetic. Options come from outside (RT_BUILD_OPTIONS); what is said in
+ * the kernels' text is replaced there. */
+typedef struct build {
+    const char *name, *options;
+    const hard_naive *text;
+} build;
+
+typedef struct variant {
+    const build *build;
+    subject subject;
+} variant;
+
+static void measure_variant(const hard_way *way, const void *of, double figures[])
+{
+    const variant *v = of;
+    const subject *s = &v->subject;
+    hard_way built = *way;
+    hard_mesh mesh;
+    const bool seam = s->aim == HARD_AIM_SEAM;
+    const size_t all = hard_rays(way), count = all < 1000 || way->naive ? all : all / 10;
+    if (!way->naive)
+        built.naive = v->build->text;
+    if (seam)
+        hard_mesh_quad(&mesh, false);
+    else
+        hard_mesh_ball(&mesh, way->naive ? SMALL : s->n, s->center, s->size);
+    setenv("RT_BUILD_OPTIONS", v->build->options, 1);
+    const hard_crossings c = hard_count(&built, &mesh, s->aim, count);
+    unsetenv("RT_BUILD_OPTIONS");
+    figures[0] = hard_per_million(c.none, c.rays);
+    figures[1] = hard_per_million(c.several, c.rays);
+    hard_mesh_clear(&mesh);
+}
+
+/* What holds where kernels are built otherwise: only the build as it is promises anything. */
+static void builds(void **state)
+{
+    (void)state;
+    static const hard_naive contracted = {.name = "contracted",
+                                          .file = "real.h",
+                                          .from = "#pragma OPENCL FP_CONTRACT OFF",
+                                          .to = "#pragma OPENCL FP_CONTRACT ON"};
+    static const build all[] = {{"as built", "", NULL},
+                                {"FP_CONTRACT ON", "", &contracted},
+                                {"-cl-fast-relaxed-math", "-cl-fast-relaxed-math", NULL},
+                                {"-cl-denorms-are-zero", "-cl-denorms-are-zero", NULL}};
+    static const struct {
+        int row;
+        const char *name;
+        subject subject;
+    } rows[] = {{2, "edges", {BALL, {0, 0, 0}, 1.0, HARD_AIM_EDGES, 1}},
+                {3, "vertices", {BALL, {0, 0, 0}, 1.0, HARD_AIM_VERTICES, 1}},
+                {4, "a quad's seam", {0, {0, 0, 0}, 5.0, HARD_AIM_SEAM, 1}},
+                {5, "edges, size 1e3 at 1e7", {BALL, {1e7, 1e7, 1e7}, 1e3, HARD_AIM_EDGES, 1}},
+                {6, "vertices, size 1e-14", {BALL, {0, 0, 0}, 1e-14, HARD_AIM_VERTICES, 1}},
+                {6, "edges, size 1e18", {BALL, {0, 0, 0}, 1e18, HARD_AIM_EDGES, 1}}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i)
+        for (size_t b = 0; b < sizeof all / sizeof *all; ++b) {
+            char name[100];
+            const variant v = {&all[b], rows[i].subject};
+            const double gate = b == 0 ? 0 : TOLD;
+            snprintf(name, sizeof name, "%s, %s", rows[i].name, all[b].name);
+            const hard_case c = {.row = rows[i].row,
+                                 .name = name,
+                                 .figures = {{"leaks a million", {TOLD, TOLD, gate, gate}},
+                                             {"hit twice a million", {TOLD, TOLD, gate, gate}}},
+                                 .naives = {b == 0 ? &hard_naive_moller : NULL},
+                                 .measure = measure_variant,
+                                 .of = &v};
+            hard_hold(&c);
+        }
+    hard_finish();
+}
+
 static void measure_fan(const hard_way *way, const void *of, double figures[])
 {
     hard_mesh mesh;
@@ -240,6 +318,7 @@ int main(void)
                                        cmocka_unit_test(offsets),
                                        cmocka_unit_test(scales),
                                        cmocka_unit_test(extreme_scales),
+                                       cmocka_unit_test(builds),
                                        cmocka_unit_test(fan)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
