@@ -1,3 +1,4 @@
+#define _GNU_SOURCE
 #include "hard.h"
 
 #include <math.h>
@@ -248,4 +249,15 @@ void hard_add_sphere(rt_scene *scene, float x, float y, float z, float radius)
                               ldexpf(radius, unit)};
     rt_status status = RT_STATUS_INIT;
     assert_good(rt_scene_add_sphere(scene, &sphere, 0, &status), &status);
+}
+
+void hard_read(rt_scene *scene, const char *format, ...)
+{
+    char *text = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    assert_true(vasprintf(&text, format, arguments) > 0);
+    va_end(arguments);
+    test_scene(scene, text);
+    free(text);
 }

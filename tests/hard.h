@@ -78,6 +78,9 @@ void hard_close(hard_tracer *tracer);
 /* How many of the rays nothing is in the way of, by the kernel for any hit. */
 size_t hard_open_rays(const hard_way *way, rt_scene *scene, const rt_ray *rays, size_t count);
 
+/* A scene by its text, behind "rt 1"; primitives can be added. */
+void hard_read(rt_scene *scene, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
 /* Renders the scene in some way, with hit records where the device does it. */
 void hard_draw(const hard_way *way, rt_scene *scene, rt_image *image);
 

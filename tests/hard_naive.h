@@ -21,5 +21,7 @@ extern const hard_naive hard_naive_entering;
 extern const hard_naive hard_naive_slab;
 /* The same, taking the last of equal hits. */
 extern const hard_naive hard_naive_last;
+/* Kernels in which next rays start on the surface as it was computed, not moved at all. */
+extern const hard_naive hard_naive_no_offset;
 
 #endif
