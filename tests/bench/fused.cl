@@ -104,7 +104,7 @@ INLINE void paint(block *all, const rt_frame *frame, const world *w, const paint
         surface s;
         s.point = ADD_SCALED(direction, all->t[k], origin);
         if (index < with->sphere_count)
-            sphere_surface(w->spheres + at, place, direction, &s);
+            sphere_surface(w->spheres + at, place, origin, direction, &s);
         else
             triangle_surface(w->triangles + at, place, all->u[k], all->v[k], direction, &s);
         __global const rt_material *m = with->materials + with->material_of[index];
