@@ -1,10 +1,10 @@
 /* What --explain prints, and its JSON. */
 #define _GNU_SOURCE
-#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "explain.h"
+#include "json.h"
 
 #define MILLI 1e3
 
@@ -131,12 +131,5 @@ bool rt_explain_write(const rt_explanation *e, rt_output *output, rt_status *sta
         json_object_set_new(root, "pairs", json_integer(e->pairs));
     }
     json_object_set_new(root, "effects", effects);
-    char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    json_decref(root);
-    if (!text)
-        return rt_status_no_memory(status, "--stats");
-    const bool good = rt_output_write(output, text, strlen(text), status) &&
-                      rt_output_write(output, "\n", 1, status);
-    free(text);
-    return good;
+    return rt_json_write(root, "--stats", output, status);
 }

@@ -1,8 +1,6 @@
 #include "stats.h"
 
-#include <jansson.h>
-#include <stdlib.h>
-#include <string.h>
+#include "json.h"
 
 static json_t *count_of(size_t count)
 {
@@ -71,12 +69,5 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
         count_of(s->spheres), "triangles", count_of(s->triangles), "lights", count_of(s->lights),
         "materials", count_of(s->materials), "rays", rays_of(s), "seconds", seconds_of(s), "stages",
         stages_of(s), "effects", effects_of(s), "devices", devices_of(s));
-    char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    json_decref(root);
-    if (!text)
-        return rt_status_no_memory(status, "--stats");
-    const bool good = rt_output_write(output, text, strlen(text), status) &&
-                      rt_output_write(output, "\n", 1, status);
-    free(text);
-    return good;
+    return rt_json_write(root, "--stats", output, status);
 }

@@ -1,11 +1,11 @@
 #define _GNU_SOURCE
 #include "study_report.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "json.h"
 #include "study_plot.h"
 #include "study_verdict.h"
 
@@ -179,13 +179,6 @@ bool rt_study_write_json(const rt_study *study, rt_output *output, rt_status *st
 {
     char *verdict = rt_study_verdict(study);
     json_t *root = verdict ? json_of(study, verdict) : NULL;
-    char *text = root ? json_dumps(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
-    json_decref(root);
     free(verdict);
-    if (!text)
-        return rt_status_no_memory(status, "--study");
-    const bool good = rt_output_write(output, text, strlen(text), status) &&
-                      rt_output_write(output, "\n", 1, status);
-    free(text);
-    return good;
+    return rt_json_write(root, "--study", output, status);
 }
