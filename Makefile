@@ -20,24 +20,28 @@ PACKAGES_CLANG := clang
 PACKAGES_BENCH := libembree-dev tachyon povray
 LIBRARIES := OpenCL jansson libdeflate
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix kernels/,options.h types.h real.h vec3.cl sampling.cl tile.cl intersect.cl sphere.cl watertight.cl \
-           packet.cl traverse.cl surface.cl camera.cl trace.cl probe.cl pattern.cl path.cl shade.cl queue.cl \
-           resolve.cl)
+KERNELS := $(addprefix kernels/,options.h types.h \
+           $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
+           $(addprefix primitives/,intersect.cl sphere.cl watertight.cl) \
+           $(addprefix traversal/,packet.cl traverse.cl) \
+           $(addprefix shading/,surface.cl pattern.cl) \
+           $(addprefix stages/,camera.cl trace.cl probe.cl path.cl shade.cl queue.cl resolve.cl))
 
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
 # No contraction: a multiply-add is fused where the code says fma, and nowhere else.
-override CFLAGS += -std=c11 -pthread -ffp-contract=off $(WARNINGS) -MMD -MP
+override CFLAGS += -std=c11 -pthread -Isrc -I. -ffp-contract=off $(WARNINGS) -MMD -MP
 # Asked only when something is compiled, since `make demo` installs pkg-config first.
 PKG_CFLAGS = $(shell pkg-config --cflags $(LIBRARIES) stb cmocka)
 PKG_LIBS = $(shell pkg-config --libs $(LIBRARIES))
 
-SOURCES := $(wildcard src/*.c)
+SOURCES := $(wildcard src/*.c src/*/*.c)
 # The scalar reference is compiled twice, for float and for double; stb's code is compiled as it is.
-OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/kernel_text.o \
-           $(patsubst src/%.c,$(BUILD)/%_double.o,$(wildcard src/scalar*.c))
+OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/opencl/kernel_text.o \
+           $(patsubst src/%.c,$(BUILD)/%_double.o,$(wildcard src/reference/*.c))
 LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
-TESTS := $(patsubst tests/%.c,$(BUILD)/%,$(wildcard tests/test_*.c))
-TEST_HELPERS := $(patsubst tests/%.c,$(BUILD)/tests_%.o,$(filter-out tests/test_%.c,$(wildcard tests/*.c)))
+TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c))
+TEST_HELPERS := $(patsubst %.c,$(BUILD)/%.o,tests/support/support.c \
+                $(filter-out tests/hard/test_%,$(wildcard tests/hard/*.c)))
 
 .PHONY: all demo test check lint asan check-kernels deps deps-lint deps-clang install uninstall clean
 .DELETE_ON_ERROR:
@@ -52,28 +56,28 @@ $(BUILD)/rt: $(OBJECTS)
 	$(call say,LINK)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
 
-$(BUILD)/%.o: src/%.c | $(BUILD)
+$(BUILD)/%.o: src/%.c
 	$(call say,CC)
+	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -c -o $@ $<
 
 # Its JPEG code shifts into the sign bit; that is the library's, and harmless. Its loops over a
 # picture's bytes are vectorised at -O3 only.
-$(BUILD)/stb_write.o $(BUILD)/stb_read.o: override CFLAGS += -O3 -fno-sanitize=undefined
+$(BUILD)/image/stb_write.o $(BUILD)/image/stb_read.o: override CFLAGS += -O3 -fno-sanitize=undefined
 
-$(BUILD)/%_double.o: src/%.c | $(BUILD)
+$(BUILD)/%_double.o: src/%.c
 	$(call say,CC)
+	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -DRT_SCALAR_DOUBLE -c -o $@ $<
 
-$(BUILD)/kernel_text.o: $(BUILD)/kernel_text.c
+$(BUILD)/opencl/kernel_text.o: $(BUILD)/opencl/kernel_text.c
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) -Isrc -c -o $@ $<
+	$(Q)$(CC) $(CFLAGS) -c -o $@ $<
 
-$(BUILD)/kernel_text.c: src/kernel_text.awk $(KERNELS) | $(BUILD)
+$(BUILD)/opencl/kernel_text.c: src/opencl/kernel_text.awk $(KERNELS)
 	$(call say,GEN)
-	$(Q)awk -f src/kernel_text.awk $(KERNELS) >$@
-
-$(BUILD):
-	@mkdir -p $@
+	@mkdir -p $(@D)
+	$(Q)awk -f $< $(KERNELS) >$@
 
 # Two commands on a fresh machine: both install what is missing and say nothing when nothing is.
 demo: deps
@@ -91,17 +95,22 @@ check: rt $(TESTS)
 test-hard: deps
 	@$(MAKE) --no-print-directory check-hard
 
-check-hard: rt $(filter $(BUILD)/test_hard_%,$(TESTS))
+check-hard: rt $(filter $(BUILD)/tests/hard/%,$(TESTS))
 	@RT=./rt RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} RT_HARD_TABLE=$(BUILD)/hard.md \
-	    tests/run $(filter $(BUILD)/test_hard_%,$(TESTS))
+	    tests/run $(filter $(BUILD)/tests/hard/%,$(TESTS))
 
-$(BUILD)/tests_%.o: tests/%.c | $(BUILD)
+$(BUILD)/tests/%.o: tests/%.c
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc -c -o $@ $<
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) $(TEST_CFLAGS) -Itests -c -o $@ $<
 
-$(BUILD)/test_%: tests/test_%.c $(TEST_HELPERS) $(LIBRARY)
+# The loops around Embree get what its own tutorials are compiled with.
+$(BUILD)/tests/bench/embree.o: TEST_CFLAGS := -O3 -march=native
+
+$(TESTS): $(BUILD)/%: %.c $(TEST_HELPERS) $(LIBRARY)
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Isrc $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lgmp -lm
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Itests $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lgmp -lm
 
 # On PoCL alone, whose leaks are known: what other drivers keep is not ours either.
 # LLVM, in the thread that opens devices, sets a signal stack of its own, which the sanitizer would
@@ -118,10 +127,11 @@ check-asan: $(BUILD)/rt $(TESTS)
 	@RT=$(BUILD)/rt tests/run $(TESTS)
 
 lint: deps deps-lint
-	clang-format --dry-run -Werror src/*.[ch] tests/*.[ch] tests/bench/*.[ch] kernels/*
+	tests/arrows $(SOURCES) $(wildcard src/*/*.h)
+	clang-format --dry-run -Werror $(SOURCES) $(wildcard src/*/*.h tests/*/*.[ch]) $(KERNELS)
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
-	    --suppress=missingIncludeSystem --error-exitcode=1 src tests/bench
-	clang-tidy --quiet $(SOURCES) -- -std=c11 $(PKG_CFLAGS) 2>/dev/null
+	    --suppress=missingIncludeSystem --error-exitcode=1 -Isrc -I. -Itests src tests/bench
+	clang-tidy --quiet $(SOURCES) -- -std=c11 -Isrc -I. $(PKG_CFLAGS) 2>/dev/null
 
 check-kernels: deps-clang
 	@tests/check_kernels $(KERNELS)
@@ -130,8 +140,8 @@ check-kernels: deps-clang
 BENCH ?=
 BENCH_JSON := $(BUILD)/bench.json
 BENCH_NAMES := bench_embree bench_levels bench_effects bench_scaling bench_process bench_report nothing
-BENCH_PROGRAMS := $(addprefix $(BUILD)/bench/,$(BENCH_NAMES))
-BENCH_HELPERS := $(patsubst tests/bench/%.c,$(BUILD)/bench/%.o,$(filter-out \
+BENCH_PROGRAMS := $(addprefix $(BUILD)/tests/bench/,$(BENCH_NAMES))
+BENCH_HELPERS := $(patsubst %.c,$(BUILD)/%.o,$(filter-out \
                  $(BENCH_NAMES:%=tests/bench/%.c),$(wildcard tests/bench/*.c)))
 
 .PHONY: bench bench-run bench-deps
@@ -141,28 +151,18 @@ bench: deps bench-deps
 # A measurement that fails does not hide the others.
 bench-run: $(BUILD)/rt $(BENCH_PROGRAMS)
 	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_levels bench_effects bench_scaling bench_process; do \
-	    $(BUILD)/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
+	    $(BUILD)/tests/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
 	done; \
-	$(BUILD)/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
+	$(BUILD)/tests/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
 	cat $(BUILD)/bench.md; \
 	test -z "$$failed" || { echo "failed:$$failed" >&2; exit 1; }
-
-$(BUILD)/bench:
-	@mkdir -p $@
-
-$(BUILD)/bench/%.o: tests/bench/%.c | $(BUILD)/bench
-	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) $(BENCH_CFLAGS) -Isrc -c -o $@ $<
-
-# The loops around Embree get what its own tutorials are compiled with.
-$(BUILD)/bench/embree.o: BENCH_CFLAGS := -O3 -march=native
 
 $(filter-out %/nothing,$(BENCH_PROGRAMS)): %: %.o $(BENCH_HELPERS) $(LIBRARY)
 	$(call say,LINK)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lembree3 -lm
 
 # Starts and does nothing: it must not load more than it needs.
-$(BUILD)/bench/nothing: $(BUILD)/bench/nothing.o $(LIBRARY)
+$(BUILD)/tests/bench/nothing: $(BUILD)/tests/bench/nothing.o $(LIBRARY)
 	$(call say,LINK)
 	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
 
@@ -196,7 +196,7 @@ bench-deps:
 install: rt
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
 	install -m 755 rt $(DESTDIR)$(PREFIX)/bin/rt
-	install -m 644 src/rt.1 $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
+	install -m 644 src/cli/rt.1 $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
 
 uninstall:
 	rm -f $(DESTDIR)$(PREFIX)/bin/rt $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
@@ -204,4 +204,4 @@ uninstall:
 clean:
 	rm -rf build rt icecream.png
 
--include $(wildcard $(BUILD)/*.d $(BUILD)/bench/*.d)
+-include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/tests/*/*.d)

@@ -1,7 +1,7 @@
-/* Every build option of the kernels, with its default. src/program.c is the only place that sets
+/* Every build option of the kernels, with its default. src/render/variant.c is the only place that sets
  * them; a value that no kernel knows stops the build here, not in the middle of a stage. */
 
-/* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/accuracy.h). */
+/* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY
 #define RT_ACCURACY 1
 #endif

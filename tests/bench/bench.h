@@ -4,10 +4,10 @@
 
 #include <stdbool.h>
 
-#include "device.h"
-#include "report.h"
-#include "settings.h"
-#include "status.h"
+#include "bench/report.h"
+#include "bench/settings.h"
+#include "common/status.h"
+#include "opencl/device.h"
 
 typedef struct bench {
     bench_settings settings;

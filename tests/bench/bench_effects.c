@@ -6,14 +6,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
-#include "clock.h"
-#include "fused.h"
-#include "parallel.h"
-#include "render.h"
-#include "samples.h"
-#include "scene_text.h"
-#include "switched.h"
+#include "bench/bench.h"
+#include "bench/fused.h"
+#include "bench/samples.h"
+#include "bench/switched.h"
+#include "common/clock.h"
+#include "common/parallel.h"
+#include "render/renderer.h"
+#include "scene_text/reader.h"
 
 #define SIZE_DEFAULT 512
 /* The longer side of the pictures with effects, most of which have several samples a pixel. */

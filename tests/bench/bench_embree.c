@@ -4,14 +4,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
-#include "building.h"
-#include "embree.h"
-#include "meshes.h"
-#include "ours.h"
-#include "rays.h"
-#include "report.h"
-#include "samples.h"
+#include "bench/bench.h"
+#include "bench/building.h"
+#include "bench/embree.h"
+#include "bench/meshes.h"
+#include "bench/ours.h"
+#include "bench/rays.h"
+#include "bench/report.h"
+#include "bench/samples.h"
 
 #define SIZE_DEFAULT 1024
 /* rt, then Embree: single rays and packets of 16, as packaged and with the robust flag. */

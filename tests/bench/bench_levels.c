@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "bench.h"
-#include "meshes.h"
-#include "ours.h"
-#include "rays.h"
-#include "report.h"
-#include "samples.h"
+#include "bench/bench.h"
+#include "bench/meshes.h"
+#include "bench/ours.h"
+#include "bench/rays.h"
+#include "bench/report.h"
+#include "bench/samples.h"
 
 #define SIZE_DEFAULT 1024
 

@@ -11,11 +11,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench.h"
-#include "clock.h"
-#include "formats.h"
-#include "meshes.h"
-#include "samples.h"
+#include "bench/bench.h"
+#include "bench/formats.h"
+#include "bench/meshes.h"
+#include "bench/samples.h"
+#include "common/clock.h"
 
 #define MESH_SIZE_DEFAULT 1024
 #define MESH_LEVEL_DEFAULT 6

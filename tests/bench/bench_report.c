@@ -5,7 +5,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bench.h"
+#include "bench/bench.h"
 
 #define TEXT_SIZE 256
 

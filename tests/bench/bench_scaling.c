@@ -8,13 +8,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench.h"
-#include "building.h"
-#include "embree.h"
-#include "meshes.h"
-#include "ours.h"
-#include "rays.h"
-#include "samples.h"
+#include "bench/bench.h"
+#include "bench/building.h"
+#include "bench/embree.h"
+#include "bench/meshes.h"
+#include "bench/ours.h"
+#include "bench/rays.h"
+#include "bench/samples.h"
 
 #define SIZE_DEFAULT 1024
 /* Below this, pages and thread stacks weigh more than the triangles, and bytes a triangle tell

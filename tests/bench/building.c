@@ -1,7 +1,7 @@
-#include "building.h"
+#include "bench/building.h"
 
-#include "embree.h"
-#include "ours.h"
+#include "bench/embree.h"
+#include "bench/ours.h"
 
 /* The smallest mesh whose tree takes long enough for a bar. */
 #define BAR_FROM 80000

@@ -2,8 +2,8 @@
 #ifndef BENCH_BUILDING_H
 #define BENCH_BUILDING_H
 
-#include "bench.h"
-#include "meshes.h"
+#include "bench/bench.h"
+#include "bench/meshes.h"
 
 /* Adds the row for one input. */
 bool bench_measure_building(bench *b, const bench_input *input);

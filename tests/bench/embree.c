@@ -1,5 +1,5 @@
 #define _GNU_SOURCE
-#include "embree.h"
+#include "bench/embree.h"
 
 #include <embree3/rtcore.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 #include <pmmintrin.h>
 #endif
 
-#include "clock.h"
+#include "common/clock.h"
 
 #define LANES 16
 /* Rays that a thread takes at a time. */

@@ -6,10 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "image.h"
-#include "meshes.h"
-#include "rays.h"
-#include "status.h"
+#include "bench/meshes.h"
+#include "bench/rays.h"
+#include "common/status.h"
+#include "image/image.h"
 
 enum bench_call { BENCH_INTERSECT1, BENCH_INTERSECT16, BENCH_OCCLUDED1, BENCH_OCCLUDED16 };
 

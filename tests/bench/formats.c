@@ -1,4 +1,4 @@
-#include "formats.h"
+#include "bench/formats.h"
 
 #include <errno.h>
 #include <math.h>

@@ -5,8 +5,8 @@
 
 #include <stdbool.h>
 
-#include "scene.h"
-#include "status.h"
+#include "common/status.h"
+#include "scene/scene.h"
 
 /* Each writes the scene's first material, all its lights and primitives, and its camera, which
  * stands on the z axis, looks at the origin and has a square picture. */

@@ -1,13 +1,13 @@
-#include "fused.h"
+#include "bench/fused.h"
 
 #include <stdlib.h>
 
-#include "effects.h"
-#include "file.h"
-#include "kernel_text.h"
-#include "program.h"
-#include "render.h"
-#include "tiles.h"
+#include "common/file.h"
+#include "opencl/kernel_text.h"
+#include "render/renderer.h"
+#include "render/tiles.h"
+#include "scene/effects.h"
+#include "render/variant.h"
 
 #define SOURCE "tests/bench/fused.cl"
 #define TILE_BYTES ((size_t)RT_TILE_DEFAULT * RT_TILE_DEFAULT * RT_COLOR_COMPONENTS * sizeof(float))
@@ -28,8 +28,8 @@ static bool build(bench_fused *f, const rt_device *device, const rt_scene *scene
     const rt_effects effects = rt_effects_of(scene);
     const rt_walk walk = {rt_device_lanes(device, scene->accuracy), packet,
                           bvh ? bvh->stack_size : 0, false, scene->accuracy};
-    char options[RT_PROGRAM_OPTIONS_SIZE];
-    rt_program_options(&effects, &walk, rt_program_rounding(device), options);
+    char options[RT_VARIANT_OPTIONS_SIZE];
+    rt_variant_options(&effects, &walk, rt_variant_rounding(device), options);
     rt_file_text text = {NULL, 0};
     const char *reason = rt_file_read(SOURCE, &text);
     if (reason)

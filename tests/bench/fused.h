@@ -4,12 +4,12 @@
 
 #include <stdbool.h>
 
-#include "bvh.h"
-#include "cl.h"
-#include "device.h"
-#include "device_scene.h"
-#include "scene.h"
-#include "status.h"
+#include "bvh/bvh.h"
+#include "common/status.h"
+#include "opencl/cl.h"
+#include "opencl/device.h"
+#include "render/device_scene.h"
+#include "scene/scene.h"
 
 typedef struct bench_fused {
     cl_context context;

@@ -1,4 +1,4 @@
-#include "meshes.h"
+#include "bench/meshes.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "scene.h"
+#include "scene/scene.h"
 
 /* The light of every input. */
 #define BENCH_LIGHT_X 4.0f

@@ -2,8 +2,8 @@
  * What it takes is what every OpenCL program pays before its work begins. */
 #include <stdio.h>
 
-#include "cl.h"
-#include "device.h"
+#include "opencl/cl.h"
+#include "opencl/device.h"
 
 #define GLOBAL_SIZE 64
 

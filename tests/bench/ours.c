@@ -1,10 +1,10 @@
-#include "ours.h"
+#include "bench/ours.h"
 
 #include <stdlib.h>
 
-#include "bvh.h"
-#include "clock.h"
-#include "parallel.h"
+#include "bvh/bvh.h"
+#include "common/clock.h"
+#include "common/parallel.h"
 
 bool bench_ours_make(bench_ours *ours, const rt_device *device, const rt_scene *scene, size_t rays,
                      rt_status *status)

@@ -6,11 +6,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "device.h"
-#include "rays.h"
-#include "render.h"
-#include "scene.h"
-#include "status.h"
+#include "bench/rays.h"
+#include "common/status.h"
+#include "opencl/device.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
 
 typedef struct bench_ours {
     rt_renderer *renderer; /* owned */

@@ -1,9 +1,9 @@
-#include "rays.h"
+#include "bench/rays.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-#include "meshes.h"
+#include "bench/meshes.h"
 
 /* Far above the rounding of a hit point near 1 (1e-7), so that no tracer's answer depends on it. */
 #define BENCH_OFFSET 1e-4

@@ -6,9 +6,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "image.h"
-#include "scalar.h"
-#include "scene.h"
+#include "image/image.h"
+#include "reference/scalar.h"
+#include "scene/scene.h"
 
 typedef struct bench_rays {
     rt_ray *rays; /* owned */

@@ -1,4 +1,4 @@
-#include "report.h"
+#include "bench/report.h"
 
 #include <errno.h>
 #include <math.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "file.h"
+#include "common/file.h"
 
 bool bench_report_open(bench_report *report, const char *path, rt_status *status)
 {

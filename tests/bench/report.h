@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "samples.h"
-#include "status.h"
+#include "bench/samples.h"
+#include "common/status.h"
 
 /* How many rays hit something, by each side's count, and on how many rays the two disagree. */
 typedef struct bench_agreement {

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "status.h"
+#include "common/status.h"
 
 /* All NaN where there is nothing to tell. */
 typedef struct bench_quartiles {

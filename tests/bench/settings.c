@@ -1,13 +1,13 @@
 #define _GNU_SOURCE
-#include "settings.h"
+#include "bench/settings.h"
 
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../kernels/types.h"
-#include "number.h"
+#include "common/number.h"
+#include "kernels/types.h"
 
 enum {
     OPTION_DEVICE = 'd',

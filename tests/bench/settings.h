@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "status.h"
+#include "common/status.h"
 
 /* 20 * 4^level triangles. */
 #define BENCH_LEVEL_MAX 11

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE
-#include "switched.h"
+#include "bench/switched.h"
 
 #include <ftw.h>
 #include <math.h>
@@ -10,10 +10,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "clock.h"
-#include "parallel.h"
-#include "render_state.h"
-#include "scene_text.h"
+#include "common/clock.h"
+#include "common/parallel.h"
+#include "render/state.h"
+#include "scene_text/reader.h"
 
 #define SAMPLES_MOST 4
 

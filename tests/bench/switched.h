@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "bench.h"
-#include "samples.h"
+#include "bench/bench.h"
+#include "bench/samples.h"
 
 /* What is measured of one scene; of pairs, [0] is what the scene calls for and [1] everything. */
 typedef struct bench_switched {

@@ -1,0 +1,138 @@
+/* The watertight triangle test of the levels robust and double.
+ *
+ * Corners are taken relative to the origin, then sheared so that the ray runs along the last axis
+ * (Woop, Benthin and Wald 2013): a corner lands on the same point for every triangle that has it.
+ * On which side of an edge the ray is, is told by a difference of products whose sign is exact
+ * (Kahan; Jeannerod, Louvet and Muller 2013), so neighbours agree about their common edge. A ray
+ * that runs exactly through an edge or a corner is thought of as moved by (e, e * e), e > 0
+ * vanishing: it is then in exactly one of the triangles around. Only leaving the range of normal
+ * numbers spoils this, and scenes are brought to where that does not happen (src/scene/scene.h, unit). */
+#if RT_WATERTIGHT
+
+#define PERMUTED(v, is_x, is_y)                                                                    \
+    ((real3){SELECT(SELECT((v).x, (v).z, is_y), (v).y, is_x),                                      \
+             SELECT(SELECT((v).y, (v).x, is_y), (v).z, is_x),                                      \
+             SELECT(SELECT((v).z, (v).y, is_y), (v).x, is_x)})
+
+/* Once a ray. Returns which rays have a direction at all. */
+INLINE mask set_up_shear(rays *r)
+{
+    const real x = fabs(r->direction.x), y = fabs(r->direction.y), z = fabs(r->direction.z);
+    const mask is_x = MASK(x >= y) & MASK(x >= z);
+    const mask is_y = MASK(y >= z) & ~is_x;
+    const real3 d = PERMUTED(r->direction, is_x, is_y);
+    r->axis = SELECT(SELECT((mask)2, (mask)1, is_y), (mask)0, is_x);
+    r->from = PERMUTED(r->origin, is_x, is_y);
+    r->onward = PERMUTED(r->inverse, is_x, is_y);
+    r->sx = d.x * r->onward.z;
+    r->sy = d.y * r->onward.z;
+    return MASK(fabs(d.z) > (real)0.0f);
+}
+
+/* Corners in each ray's own order of axes. */
+INLINE void permute_by_lane(const rays *r, real3 *a, real3 *b, real3 *c)
+{
+    const mask is_x = MASK(r->axis == (mask)0), is_y = MASK(r->axis == (mask)1);
+    *a = PERMUTED(*a, is_x, is_y);
+    *b = PERMUTED(*b, is_x, is_y);
+    *c = PERMUTED(*c, is_x, is_y);
+}
+
+/* a * b - c * d with a relative error below 2 half ulps. */
+#define DIFFERENCE_OF_PRODUCTS(result, a, b, c, d)                                                 \
+    do {                                                                                           \
+        const real product_ = (c) * (d);                                                           \
+        result = fma(a, b, -product_) + fma(-(c), d, product_);                                    \
+    } while (0)
+
+/* A triangle as the rays see it: corners relative to the origin in the order of axes, `x`, `y`
+ * sheared, `t` how far along the ray; each corner's weight, which is the area opposite to it. */
+typedef struct corners {
+    real3 a, b, c;
+    real ax, ay, at, bx, by, bt, cx, cy, ct;
+    real wa, wb, wc;
+} corners;
+
+/* Of rays that run through an edge or a corner, those that the triangle owns. */
+INLINE mask owns(const corners *s, mask is_positive)
+{
+    const mask beyond_a = MASK(s->cy > s->by) | (MASK(s->cy == s->by) & MASK(s->bx > s->cx));
+    const mask beyond_b = MASK(s->ay > s->cy) | (MASK(s->ay == s->cy) & MASK(s->cx > s->ax));
+    const mask beyond_c = MASK(s->by > s->ay) | (MASK(s->by == s->ay) & MASK(s->ax > s->bx));
+    return (MASK(s->wa != (real)0.0f) | ~(beyond_a ^ is_positive)) &
+           (MASK(s->wb != (real)0.0f) | ~(beyond_b ^ is_positive)) &
+           (MASK(s->wc != (real)0.0f) | ~(beyond_c ^ is_positive));
+}
+
+/* What rounding can make of t at most, to first order (the idea of pbrt 4th ed. 6.8, but with the
+ * weights of the hit, so that a large triangle near the origin is not lost): the error of each
+ * corner along the ray, and that across it times the triangle's slope. */
+INLINE real error_of_t(const rays *r, const corners *s, real det)
+{
+    const real wa = fabs(s->wa), wb = fabs(s->wb), wc = fabs(s->wc);
+    const real sx = fabs(r->sx), sy = fabs(r->sy);
+    const real along = fma(wa, fabs(s->at), fma(wb, fabs(s->bt), wc * fabs(s->ct)));
+    const real aside_x =
+        fma(wa, fma(sx, fabs(s->a.z), fabs(s->a.x)),
+            fma(wb, fma(sx, fabs(s->b.z), fabs(s->b.x)), wc * fma(sx, fabs(s->c.z), fabs(s->c.x))));
+    const real aside_y =
+        fma(wa, fma(sy, fabs(s->a.z), fabs(s->a.y)),
+            fma(wb, fma(sy, fabs(s->b.z), fabs(s->b.y)), wc * fma(sy, fabs(s->c.z), fabs(s->c.y))));
+    const real bx = s->bx - s->ax, by = s->by - s->ay, bt = s->bt - s->at;
+    const real cx = s->cx - s->ax, cy = s->cy - s->ay, ct = s->ct - s->at;
+    const real part = DIVIDE((real)1.0f, det);
+    const real slope_x = fabs(fma(by, ct, -(bt * cy))) * part;
+    const real slope_y = fabs(fma(bt, cx, -(bx * ct))) * part;
+    const real sum = fma(slope_x, aside_x, fma(slope_y, aside_y, along));
+    return (real)(8 * RT_HALF_ULP) * (sum * part);
+}
+
+/* Corners in the rays' order of axes. Returns whether any lane is on. */
+INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask active, meeting *m)
+{
+    corners s;
+    s.a = SUB(real3, a, r->from);
+    s.b = SUB(real3, b, r->from);
+    s.c = SUB(real3, c, r->from);
+    s.ax = fma(-r->sx, s.a.z, s.a.x);
+    s.ay = fma(-r->sy, s.a.z, s.a.y);
+    s.bx = fma(-r->sx, s.b.z, s.b.x);
+    s.by = fma(-r->sy, s.b.z, s.b.y);
+    s.cx = fma(-r->sx, s.c.z, s.c.x);
+    s.cy = fma(-r->sy, s.c.z, s.c.y);
+    DIFFERENCE_OF_PRODUCTS(s.wa, s.cx, s.by, s.cy, s.bx);
+    DIFFERENCE_OF_PRODUCTS(s.wb, s.ax, s.cy, s.ay, s.cx);
+    DIFFERENCE_OF_PRODUCTS(s.wc, s.bx, s.ay, s.by, s.ax);
+    const real least = LESSEST(s.wa, s.wb, s.wc);
+    const real most = GREATEST(s.wa, s.wb, s.wc);
+    const mask is_positive = MASK(least >= (real)0.0f);
+    m->on = active & (is_positive | MASK(most <= (real)0.0f));
+    if (!ANY(m->on))
+        return 0;
+    const real signed_det = s.wa + s.wb + s.wc;
+    const mask sign = AS_MASK(signed_det) & (mask)SIGN_BIT;
+    m->det = AS_REAL(AS_MASK(signed_det) ^ sign);
+    m->on = m->on & MASK(m->det > (real)0.0f);
+#if RT_CULL
+    /* The sign of Moller and Trumbore's determinant. */
+    const real facing = AS_REAL(AS_MASK(signed_det) ^ (AS_MASK(r->onward.z) & (mask)SIGN_BIT));
+    m->on = m->on & MASK(facing * (real)RT_CULL > (real)0.0f);
+#endif
+    if (ANY(m->on & (MASK(least == (real)0.0f) | MASK(most == (real)0.0f))))
+        m->on = m->on & owns(&s, is_positive);
+    s.at = s.a.z * r->onward.z;
+    s.bt = s.b.z * r->onward.z;
+    s.ct = s.c.z * r->onward.z;
+    const real sum = fma(s.wa, s.at, fma(s.wb, s.bt, s.wc * s.ct));
+    m->t = DIVIDE(AS_REAL(AS_MASK(sum) ^ sign), m->det);
+    m->u = AS_REAL(AS_MASK(s.wb) ^ sign);
+    m->v = AS_REAL(AS_MASK(s.wc) ^ sign);
+    /* t is a mean of the corners': where all are ahead, so is the hit, and no rounding changes
+     * that. */
+    const mask straddles = MASK(LESSEST(s.at, s.bt, s.ct) <= (real)0.0f);
+    if (ANY(m->on & straddles))
+        m->on = m->on & (~straddles | MASK(m->t > error_of_t(r, &s, m->det)));
+    keep_in_box(r->from, r->onward, r->tmin, LEAST_CORNER(a, b, c), GREATEST_CORNER(a, b, c), m);
+    return 1;
+}
+#endif

@@ -1,0 +1,25 @@
+/* The reference: plain scalar C that follows the formulas of README.md, "Numerics", and shares no
+ * code with the kernels. The float version does the same roundings in the same order, so its hits
+ * are the kernels' hits to the bit; the double version is what errors are measured against. */
+#ifndef RT_REFERENCE_SCALAR_H
+#define RT_REFERENCE_SCALAR_H
+
+#include <stddef.h>
+
+#include "common/ray.h"
+#include "common/watch.h"
+#include "image/image.h"
+#include "scene/scene.h"
+
+/* Renders the whole scene; hit records are filled in where the picture has room for them. Fails
+ * only when the watch stops it, with code RT_INTERRUPTED. */
+bool rt_scalar_float_render(const rt_scene *scene, rt_image *image, const rt_watch *watch,
+                            rt_status *status);
+bool rt_scalar_double_render(const rt_scene *scene, rt_image *image, const rt_watch *watch,
+                             rt_status *status);
+
+/* The nearest hits of `count` rays. */
+void rt_scalar_float_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
+void rt_scalar_double_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
+
+#endif

@@ -1,0 +1,116 @@
+#include "render/device_scene.h"
+
+#include <stdlib.h>
+
+/* Where uploads go and by which queue. */
+typedef struct uploader {
+    cl_context context;
+    cl_command_queue queue;
+    rt_device_scene *target;
+} uploader;
+
+bool rt_buffer_make(cl_context context, cl_mem_flags flags, size_t size, cl_mem *buffer,
+                    rt_status *status)
+{
+    cl_int error = CL_SUCCESS;
+    *buffer = clCreateBuffer(context, flags, size ? size : 1, NULL, &error);
+    return RT_CL_MADE(error, "clCreateBuffer", status);
+}
+
+static bool upload(const uploader *u, const void *bytes, size_t size, cl_mem *buffer,
+                   rt_status *status)
+{
+    return rt_buffer_make(u->context, CL_MEM_READ_ONLY, size, buffer, status) &&
+           (size == 0 ||
+            RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, 0, size, bytes, 0, NULL, NULL),
+                  status));
+}
+
+/* One array of material indices for all primitives, spheres first. */
+static bool upload_material_indices(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    const size_t spheres = scene->sphere_count * sizeof *scene->sphere_materials;
+    const size_t triangles = scene->triangle_count * sizeof *scene->triangle_materials;
+    cl_mem *buffer = &u->target->materials_of;
+    return rt_buffer_make(u->context, CL_MEM_READ_ONLY, spheres + triangles, buffer, status) &&
+           (spheres == 0 || RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, 0, spheres,
+                                                       scene->sphere_materials, 0, NULL, NULL),
+                                  status)) &&
+           (triangles == 0 ||
+            RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, spheres, triangles,
+                                       scene->triangle_materials, 0, NULL, NULL),
+                  status));
+}
+
+/* The arrays that the trace stage works on. */
+static bool upload_geometry(const uploader *u, const rt_scene *scene, const rt_bvh *bvh,
+                            rt_status *status)
+{
+    rt_device_scene *b = u->target;
+    rt_blocks in_order = {0};
+    if (!bvh && !rt_blocks_in_order(&in_order, scene, status))
+        return false;
+    const rt_blocks *blocks = bvh ? &bvh->blocks : &in_order;
+    const size_t slots = rt_blocks_slots(blocks) + RT_ORDER_PADDING;
+    b->sphere_blocks = (cl_int)blocks->sphere_blocks;
+    b->triangle_blocks = (cl_int)blocks->triangle_blocks;
+    const bool good =
+        upload(u, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
+               &b->nodes, status) &&
+        upload(u, blocks->order, slots * sizeof *blocks->order, &b->order, status) &&
+        upload(u, blocks->spheres, (blocks->sphere_blocks + 1) * sizeof *blocks->spheres,
+               &b->spheres, status) &&
+        upload(u, blocks->triangles, (blocks->triangle_blocks + 1) * sizeof *blocks->triangles,
+               &b->triangles, status);
+    rt_blocks_clear(&in_order);
+    return good;
+}
+
+static bool upload_normals(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    const size_t normals = scene->normal_count * RT_NORMAL_COMPONENTS;
+    return upload(u, scene->triangle_normals,
+                  scene->triangle_count * sizeof *scene->triangle_normals, &u->target->normals_of,
+                  status) &&
+           upload(u, scene->normals, normals * sizeof *scene->normals, &u->target->normals, status);
+}
+
+static bool upload_textures(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    rt_device_scene *b = u->target;
+    const size_t uvs = scene->uv_count * RT_UV_COMPONENTS;
+    return upload(u, scene->triangle_uvs, scene->triangle_count * sizeof *scene->triangle_uvs,
+                  &b->uvs_of, status) &&
+           upload(u, scene->uvs, uvs * sizeof *scene->uvs, &b->uvs, status) &&
+           upload(u, scene->textures, scene->texture_count * sizeof *scene->textures, &b->textures,
+                  status) &&
+           upload(u, scene->texels, scene->texel_count * sizeof *scene->texels, &b->texels, status);
+}
+
+bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_command_queue queue,
+                            const rt_scene *scene, const rt_bvh *bvh, const rt_effects *effects,
+                            rt_status *status)
+{
+    const uploader up = {context, queue, target}, *u = &up;
+    rt_device_scene *b = target;
+    b->sphere_count = (cl_int)scene->sphere_count;
+    return upload_geometry(u, scene, bvh, status) && upload_material_indices(u, scene, status) &&
+           upload(u, scene->materials, scene->material_count * sizeof *scene->materials,
+                  &b->materials, status) &&
+           upload(u, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights,
+                  status) &&
+           (!rt_effects_has(effects, RT_EFFECT_SMOOTH_NORMALS) ||
+            upload_normals(u, scene, status)) &&
+           (!rt_effects_has(effects, RT_EFFECT_TEXTURE) || upload_textures(u, scene, status));
+}
+
+void rt_device_scene_release(rt_device_scene *s)
+{
+    const cl_mem buffers[] = {s->nodes,     s->order,        s->spheres,    s->triangles, s->lights,
+                              s->materials, s->materials_of, s->normals_of, s->normals,   s->uvs_of,
+                              s->uvs,       s->textures,     s->texels};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
+        if (buffers[i])
+            clReleaseMemObject(buffers[i]);
+    *s = (rt_device_scene){0};
+}

@@ -1,0 +1,32 @@
+/* Which variant of the kernels a scene and a device call for, as compiler options. */
+#ifndef RT_RENDER_VARIANT_H
+#define RT_RENDER_VARIANT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "common/accuracy.h"
+#include "opencl/device.h"
+#include "scene/effects.h"
+
+#define RT_VARIANT_OPTIONS_SIZE 1024
+
+/* How the kernels come by correctly rounded division and square root (kernels/options.h). */
+enum rt_rounding { RT_ROUNDING_DEVICE = 0, RT_ROUNDING_DOUBLE = 1, RT_ROUNDING_FMA = 2 };
+
+/* The way for a device: its own where it offers it, double where it has fp64, else fma. */
+enum rt_rounding rt_variant_rounding(const rt_device *device);
+
+/* How the trace stage walks (kernels/options.h). */
+typedef struct rt_walk {
+    int lanes, packet;
+    size_t stack_size;   /* entries that the tree needs at most; 0 for no tree */
+    bool with_occlusion; /* whether any hit is asked for too */
+    enum rt_accuracy accuracy;
+} rt_walk;
+
+/* Writes the compiler options of a variant to options[0..RT_VARIANT_OPTIONS_SIZE). */
+void rt_variant_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
+                        char *options);
+
+#endif

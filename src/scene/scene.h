@@ -1,0 +1,169 @@
+/* The scene: what is seen, from where, in which light. Plain arrays that a device can take as they
+ * are (kernels/types.h); all numbers are fp32 and count as exact. */
+#ifndef RT_SCENE_SCENE_H
+#define RT_SCENE_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "common/accuracy.h"
+#include "common/status.h"
+#include "kernels/types.h"
+
+#define RT_IMAGE_SIDE_MAX 65535
+/* 16384 x 16384: pixel counts and byte counts of a picture stay within 32 bits unsigned. */
+#define RT_IMAGE_PIXELS_MAX (INT64_C(1) << 28)
+#define RT_SHININESS_MAX 1e6f
+/* Rays a pixel, shadow rays a point, occlusion rays a point. */
+#define RT_SAMPLES_MAX 4096
+#define RT_DEPTH_MAX 1024
+/* Of all textures together: 1 GiB, and every index and byte count is within 32 bits. */
+#define RT_TEXELS_MAX (INT64_C(1) << 28)
+
+/* Primitive indices count the spheres first, in file order, then the triangles. */
+typedef struct rt_sphere {
+    float cx, cy, cz, radius;
+} rt_sphere;
+
+typedef struct rt_triangle {
+    float ax, ay, az, bx, by, bz, cx, cy, cz;
+} rt_triangle;
+
+typedef struct rt_vec3 {
+    float x, y, z;
+} rt_vec3;
+
+/* Where a statement stands, for `--explain` and messages; line 0 where none called for it. */
+typedef struct rt_place {
+    const char *file; /* owned by the scene */
+    int line;
+} rt_place;
+
+typedef struct rt_camera {
+    rt_vec3 from, at, up;
+    float vfov;     /* degrees, whole angle from bottom to top, in (0, 180) */
+    float aperture; /* diameter of the lens; 0 for a pinhole */
+    float focus;    /* distance along the view of what is sharp; 0 for that of `at` */
+} rt_camera;
+
+enum rt_cull { RT_CULL_NONE, RT_CULL_BACK, RT_CULL_FRONT };
+enum rt_winding { RT_WINDING_CCW, RT_WINDING_CW };
+enum rt_filter { RT_FILTER_BOX, RT_FILTER_TENT };
+
+typedef struct rt_scene {
+    int width, height; /* pixels */
+    enum rt_accuracy accuracy;
+    /* All lengths and coordinates below are the file's times 2^unit_exponent, which is 0 but for
+     * very small and very large scenes; what is per length is divided by it. t of rays that a
+     * caller brings, and of hit records, is the file's. */
+    int unit_exponent;
+    int samples; /* rays a pixel, 1 up */
+    enum rt_filter filter;
+    int depth; /* mirror and refracted rays in a row, at most */
+    rt_camera camera;
+    rt_vec3 background, ambient;
+    bool has_gradient;      /* the background goes from `background` to `background_top` */
+    rt_vec3 background_top; /* opposite to and along the camera's `up` */
+    rt_vec3 fog;
+    float fog_density;     /* per unit of length; 0 for none */
+    int occlusion_samples; /* 0 for none */
+    float occlusion_distance;
+    enum rt_cull cull;
+    enum rt_winding winding;
+    rt_place cull_place, smooth_place, image_place, camera_place, background_place, fog_place;
+    rt_place occlusion_place;
+    rt_place here; /* the statement being read: what is added gets this place */
+
+    /* All arrays are owned. Primitive indices count spheres, then triangles. */
+    rt_light *lights;
+    rt_place *light_places; /* of what calls for the shadow of each, or of the light */
+    rt_material *materials;
+    rt_place *material_places;
+    rt_sphere *spheres;
+    int32_t *sphere_materials;
+    rt_triangle *triangles;
+    int32_t *triangle_materials;
+    int32_t *triangle_normals; /* record in `normals`, or -1 */
+    float *normals;            /* RT_NORMAL_COMPONENTS a record: na, nb, nc */
+    int32_t *triangle_uvs;     /* record in `uvs`, or -1 */
+    float *uvs;                /* RT_UV_COMPONENTS a record */
+    rt_texture *textures;
+    char **texture_files; /* the path of each, without links and dots */
+    uint32_t *texels;     /* of all textures */
+    size_t light_count, light_capacity;
+    size_t material_count, material_capacity;
+    size_t sphere_count, sphere_capacity;
+    size_t triangle_count, triangle_capacity;
+    size_t normal_count, normal_capacity; /* records */
+    size_t uv_count, uv_capacity;         /* records */
+    size_t texture_count, texture_capacity;
+    size_t texel_count, texel_capacity;
+
+    char **files; /* names of the files read, in order of opening */
+    size_t file_count, file_capacity;
+} rt_scene;
+
+/* An empty scene with the defaults of the format: 512x512, eye at the origin looking along -z,
+ * vfov 90, everything black. */
+void rt_scene_init(rt_scene *scene);
+void rt_scene_clear(rt_scene *scene);
+
+/* Each adds one element and returns false, with the status set, when memory or the 2^31 - 1
+ * primitives that an index can name run out. `normals` is NULL or nine floats. */
+bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status);
+bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status);
+bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
+                         rt_status *status);
+bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
+                           int32_t material, rt_status *status);
+
+/* Gives the triangle added last its texture coordinates: RT_UV_COMPONENTS floats. */
+bool rt_scene_set_uvs(rt_scene *scene, const float *uvs, rt_status *status);
+
+/* Makes room at once for so many triangles more, and records of normals. */
+bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
+                                rt_status *status);
+
+/* Brings a scene that is complete to a unit of length (unit_exponent) in which the arithmetic of
+ * float has room: largest coordinate of primitives and eye from 2^-10 to 2^38. Exact, but for what
+ * is 2^126 times smaller than the largest. A scene read from a file has been through it. */
+void rt_scene_choose_unit(rt_scene *scene);
+
+/* A material for the given coefficients (ka, kd, ks: r g b each). */
+rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
+                             float shininess);
+
+/* The camera as vectors, in double: the direction of pixel (x, y) is
+ * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward, not unit. */
+typedef struct rt_view {
+    double origin[3], right[3], up[3], forward[3];
+    double lens_right[3], lens_up[3]; /* the lens's radii, to the right and upward; 0 for none */
+    double focus;                     /* distance along `forward` of what is sharp */
+} rt_view;
+
+/* Where `up` is parallel to the view, the axis least along the view stands in for it. */
+rt_view rt_scene_view(const rt_scene *scene);
+
+/* The background's colours and the unit vector along which they change. */
+rt_gradient rt_scene_gradient(const rt_scene *scene);
+
+/* The view rounded to what the kernels and the float reference take. */
+rt_frame rt_scene_frame(const rt_scene *scene);
+/* The same in double, for the kernels that compute in it. */
+rt_frame_double rt_scene_frame_double(const rt_scene *scene);
+
+/* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
+ * has no area. */
+bool rt_triangle_is_degenerate(const rt_triangle *triangle);
+
+/* Makes a triangle as a file gives it fit for the scene. One without area becomes a single point,
+ * so that it keeps its index and its determinant is 0 for every ray. `normals`, NULL or nine
+ * floats, are multiplied by a common power of two, which is exact and keeps their weights, so that
+ * sums of them neither overflow nor vanish. Returns whether the triangle has area. */
+bool rt_triangle_settle(rt_triangle *triangle, float *normals);
+
+/* +1 or -1: the only sign of the Moller-Trumbore determinant that is a hit; 0: both are. */
+int rt_scene_cull_sign(const rt_scene *scene);
+
+#endif

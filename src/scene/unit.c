@@ -1,0 +1,104 @@
+/* A scene's unit of length: a power of two that brings its coordinates to where products of three
+ * of them neither overflow nor vanish. Multiplying by it is exact, so nothing else changes. */
+#include <math.h>
+
+#include "scene/scene.h"
+
+/* Exponents of the largest coordinate that are left as they are: three differences of numbers below
+ * 2^38 multiply to 2^117 at most, and differences of 2^-48 still have exact products. */
+#define EXPONENT_MIN (-10)
+#define EXPONENT_MAX 37
+/* What lies outside of the primitives and the eye may be far away: it ends here. */
+#define EXPONENT_FAR 120
+
+static float largest_of(float a, float b, float c)
+{
+    return fmaxf(fabsf(a), fmaxf(fabsf(b), fabsf(c)));
+}
+
+static float largest_coordinate(const rt_scene *scene)
+{
+    const rt_vec3 from = scene->camera.from;
+    float most = largest_of(from.x, from.y, from.z);
+    for (size_t i = 0; i < scene->sphere_count; ++i) {
+        const rt_sphere *s = &scene->spheres[i];
+        most = fmaxf(most, fmaxf(largest_of(s->cx, s->cy, s->cz), s->radius));
+    }
+    for (size_t i = 0; i < scene->triangle_count; ++i) {
+        const rt_triangle *t = &scene->triangles[i];
+        most = fmaxf(most, largest_of(t->ax, t->ay, t->az));
+        most = fmaxf(most, largest_of(t->bx, t->by, t->bz));
+        most = fmaxf(most, largest_of(t->cx, t->cy, t->cz));
+    }
+    return most;
+}
+
+static void scale(float *x, float *y, float *z, int exponent)
+{
+    *x = ldexpf(*x, exponent);
+    *y = ldexpf(*y, exponent);
+    *z = ldexpf(*z, exponent);
+}
+
+/* A point that only gives a direction, as seen from the scene: where it would leave the range of
+ * numbers it stays on its line from the origin. */
+static void scale_far(float *x, float *y, float *z, int exponent)
+{
+    const float most = largest_of(*x, *y, *z);
+    const int room = most > 0.0f ? EXPONENT_FAR - ilogbf(most) : 0;
+    scale(x, y, z, exponent < room ? exponent : room);
+}
+
+/* A length, or what is per length, for which the largest float is as good as infinite. */
+static float scaled(float value, int exponent)
+{
+    return fminf(ldexpf(value, exponent), 0x1p120f);
+}
+
+static void scale_all(rt_scene *scene, int exponent)
+{
+    rt_camera *c = &scene->camera;
+    scale(&c->from.x, &c->from.y, &c->from.z, exponent);
+    scale_far(&c->at.x, &c->at.y, &c->at.z, exponent);
+    c->aperture = scaled(c->aperture, exponent);
+    c->focus = scaled(c->focus, exponent);
+    scene->fog_density = scaled(scene->fog_density, -exponent);
+    scene->occlusion_distance = scaled(scene->occlusion_distance, exponent);
+    for (size_t i = 0; i < scene->light_count; ++i) {
+        rt_light *l = &scene->lights[i];
+        if (l->w != 0.0f)
+            scale_far(&l->x, &l->y, &l->z, exponent);
+        l->radius = scaled(l->radius, exponent);
+    }
+    for (size_t i = 0; i < scene->material_count; ++i) {
+        rt_material *m = &scene->materials[i];
+        m->cell = scaled(m->cell, exponent);
+        m->absorb_r = scaled(m->absorb_r, -exponent);
+        m->absorb_g = scaled(m->absorb_g, -exponent);
+        m->absorb_b = scaled(m->absorb_b, -exponent);
+    }
+    for (size_t i = 0; i < scene->sphere_count; ++i) {
+        rt_sphere *s = &scene->spheres[i];
+        scale(&s->cx, &s->cy, &s->cz, exponent);
+        s->radius = ldexpf(s->radius, exponent);
+    }
+    for (size_t i = 0; i < scene->triangle_count; ++i) {
+        rt_triangle *t = &scene->triangles[i];
+        scale(&t->ax, &t->ay, &t->az, exponent);
+        scale(&t->bx, &t->by, &t->bz, exponent);
+        scale(&t->cx, &t->cy, &t->cz, exponent);
+    }
+}
+
+void rt_scene_choose_unit(rt_scene *scene)
+{
+    const float most = largest_coordinate(scene);
+    const int exponent = most > 0.0f ? ilogbf(most) : 0;
+    const int by = exponent > EXPONENT_MAX   ? EXPONENT_MAX - exponent
+                   : exponent < EXPONENT_MIN ? -exponent
+                                             : 0;
+    if (by == 0)
+        return;
+    scale_all(scene, by);
+    scene->unit_exponent += by;
+}

@@ -1,0 +1,77 @@
+/* The statements of the native scene format as a table: what the parser accepts, what its messages
+ * expect, and what the README prints are one and the same. */
+#ifndef RT_SCENE_TEXT_GRAMMAR_H
+#define RT_SCENE_TEXT_GRAMMAR_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+enum rt_value_kind {
+    RT_VALUE_NUMBER,    /* one float within [min, max], or (min, max) if `open` */
+    RT_VALUE_COUNT,     /* one whole number within [min, max] */
+    RT_VALUE_PAIR,      /* two finite floats */
+    RT_VALUE_POINT,     /* three finite floats */
+    RT_VALUE_DIRECTION, /* three finite floats, not all zero */
+    RT_VALUE_COLOR,     /* three floats within [min, max] */
+    RT_VALUE_CHOICE,    /* one of the words in `choices`, separated by '|' */
+    RT_VALUE_NAME,      /* a new material name */
+    RT_VALUE_MATERIAL,  /* the name of a material defined above */
+    RT_VALUE_PATH       /* a quoted file name */
+};
+
+/* Most fields that a statement has. */
+#define RT_FIELDS_MAX 14
+
+typedef struct rt_field {
+    const char *name; /* NULL: positional, straight after the keyword */
+    enum rt_value_kind kind;
+    double min, max;
+    int open;
+    const char *choices;
+    const char *fallback; /* as text for the README; NULL: the field must be given */
+    const char *meaning;
+} rt_field;
+
+enum rt_statement_id {
+    RT_STATEMENT_RT,
+    RT_STATEMENT_INCLUDE,
+    RT_STATEMENT_IMAGE,
+    RT_STATEMENT_CAMERA,
+    RT_STATEMENT_BACKGROUND,
+    RT_STATEMENT_AMBIENT,
+    RT_STATEMENT_FOG,
+    RT_STATEMENT_OCCLUSION,
+    RT_STATEMENT_SHADOWS,
+    RT_STATEMENT_DEPTH,
+    RT_STATEMENT_LIGHT_POINT,
+    RT_STATEMENT_LIGHT_DIRECTIONAL,
+    RT_STATEMENT_MATERIAL,
+    RT_STATEMENT_SPHERE,
+    RT_STATEMENT_TRIANGLE,
+    RT_STATEMENT_MESH,
+    RT_STATEMENT_CULL,
+    RT_STATEMENT_ACCURACY,
+    RT_STATEMENT_COUNT
+};
+
+typedef struct rt_statement {
+    const char *keyword;
+    const char *variant; /* the word that must follow the keyword, or NULL */
+    int once;            /* at most one a scene */
+    const char *meaning;
+    rt_field fields[RT_FIELDS_MAX]; /* ended by meaning == NULL */
+} rt_statement;
+
+/* RT_STATEMENT_COUNT entries, indexed by rt_statement_id. */
+extern const rt_statement rt_statements[];
+
+/* Number of fields of a statement. */
+size_t rt_statement_field_count(const rt_statement *statement);
+
+/* Writes what the field's value must be, such as "a number above 0", to text[0..size). */
+void rt_field_expectation(const rt_field *field, char *text, size_t size);
+
+/* Prints the grammar as a Markdown table, made from the very table that the parser works by. */
+void rt_grammar_print(FILE *out);
+
+#endif

@@ -1,0 +1,74 @@
+/* What the parts of the scene reader share: the state of reading, and what each statement does. One
+ * file a subject: setting (picture, eye, surroundings), lights, materials, shapes. */
+#ifndef RT_SCENE_TEXT_PARSER_H
+#define RT_SCENE_TEXT_PARSER_H
+
+#include "common/status.h"
+#include "scene/scene.h"
+#include "scene_text/line.h"
+#include "scene_text/source.h"
+
+/* What a name stands for. */
+typedef struct rt_material_name {
+    char *text;
+    int32_t index;
+} rt_material_name;
+
+typedef struct rt_parser {
+    rt_scene *scene;
+    rt_status *status;
+    void *names; /* tsearch tree of rt_material_name */
+    const rt_material_name *last_name;
+    bool has_version;
+    rt_place seen[RT_STATEMENT_COUNT]; /* where a statement first came */
+    bool has_shadows;                  /* what `shadows` says */
+    size_t degenerate_count;
+    rt_place degenerate_place;
+} rt_parser;
+
+static inline rt_vec3 rt_value_vector(const rt_value *v, rt_vec3 fallback)
+{
+    return v->given ? (rt_vec3){v->number[0], v->number[1], v->number[2]} : fallback;
+}
+
+static inline float rt_value_number(const rt_value *v, float fallback)
+{
+    return v->given ? v->number[0] : fallback;
+}
+
+static inline int rt_value_count(const rt_value *v, int fallback)
+{
+    return v->given ? (int)v->count : fallback;
+}
+
+/* Each does what its statement says, and returns false after a message at it. */
+bool rt_scene_apply_image(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_camera(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_background(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_ambient(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_fog(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_occlusion(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_depth(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_cull(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_accuracy(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_shadows(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_light_point(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_light_directional(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_material(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_sphere(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_triangle(rt_parser *p, rt_source *source, const rt_line *line);
+bool rt_scene_apply_mesh(rt_parser *p, rt_source *source, const rt_line *line);
+
+/* Lets `shadows` decide for the lights that do not say themselves, once all statements are read. */
+void rt_scene_settle_shadows(rt_parser *p);
+
+/* Makes a material known that cannot be read, so that its uses are not errors too. */
+void rt_scene_define_broken(rt_parser *p, rt_source *source, const rt_word *name);
+
+/* The index of the material that a word names, or -1 after a message. */
+int32_t rt_scene_find_material(rt_parser *p, rt_source *source, const rt_word *word);
+
+/* Forgets the names. */
+void rt_scene_forget_materials(rt_parser *p);
+
+#endif

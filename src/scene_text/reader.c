@@ -1,0 +1,166 @@
+/* Files, their lines, and what order statements may come in. After an error the rest of the line is
+ * skipped and reading goes on, so that one run shows many mistakes. */
+#define _GNU_SOURCE
+#include "scene_text/reader.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/array.h"
+#include "common/file.h"
+#include "scene_text/parser.h"
+
+#define INCLUDE_DEPTH_MAX 16
+
+/* `at` is where the includer names the file; both are NULL for the scene itself. */
+static bool read_file(rt_parser *p, const char *path, rt_source *includer, const char *at);
+
+/* Opens `word` relative to the file that names it. */
+static bool apply_include(rt_parser *p, rt_source *src, const rt_line *l)
+{
+    const rt_word *word = &l->values[0].word;
+    char *path = rt_file_beside(src->name, word->text, word->length);
+    if (!path)
+        return rt_status_no_memory(p->status, "a path");
+    int depth = 1;
+    for (const rt_source *s = src; s; s = s->includer, ++depth)
+        if (strcmp(s->name, path) == 0 || depth > INCLUDE_DEPTH_MAX) {
+            if (depth > INCLUDE_DEPTH_MAX)
+                RT_FAIL_AT(src, rt_word_start(word), "%d files deep in includes",
+                           INCLUDE_DEPTH_MAX);
+            else
+                RT_FAIL_AT(src, rt_word_start(word), "'%s' includes itself", path);
+            free(path);
+            return false;
+        }
+    const bool done = read_file(p, path, src, rt_word_start(word));
+    free(path);
+    return done;
+}
+
+typedef bool apply_statement(rt_parser *p, rt_source *source, const rt_line *line);
+
+static bool apply_version(rt_parser *p, rt_source *src, const rt_line *l)
+{
+    (void)src;
+    (void)l;
+    p->has_version = true;
+    return true;
+}
+
+static apply_statement *const apply[RT_STATEMENT_COUNT] = {
+    [RT_STATEMENT_RT] = apply_version,
+    [RT_STATEMENT_INCLUDE] = apply_include,
+    [RT_STATEMENT_IMAGE] = rt_scene_apply_image,
+    [RT_STATEMENT_CAMERA] = rt_scene_apply_camera,
+    [RT_STATEMENT_BACKGROUND] = rt_scene_apply_background,
+    [RT_STATEMENT_AMBIENT] = rt_scene_apply_ambient,
+    [RT_STATEMENT_FOG] = rt_scene_apply_fog,
+    [RT_STATEMENT_OCCLUSION] = rt_scene_apply_occlusion,
+    [RT_STATEMENT_SHADOWS] = rt_scene_apply_shadows,
+    [RT_STATEMENT_DEPTH] = rt_scene_apply_depth,
+    [RT_STATEMENT_LIGHT_POINT] = rt_scene_apply_light_point,
+    [RT_STATEMENT_LIGHT_DIRECTIONAL] = rt_scene_apply_light_directional,
+    [RT_STATEMENT_MATERIAL] = rt_scene_apply_material,
+    [RT_STATEMENT_SPHERE] = rt_scene_apply_sphere,
+    [RT_STATEMENT_TRIANGLE] = rt_scene_apply_triangle,
+    [RT_STATEMENT_MESH] = rt_scene_apply_mesh,
+    [RT_STATEMENT_CULL] = rt_scene_apply_cull,
+    [RT_STATEMENT_ACCURACY] = rt_scene_apply_accuracy,
+};
+
+static bool check_order(rt_parser *p, rt_source *src, const rt_line *l)
+{
+    rt_place *seen = &p->seen[l->id];
+    if (l->statement->once && seen->line)
+        return RT_FAIL_AT(src, l->start, "'%s' is given already at %s:%d", l->statement->keyword,
+                          seen->file, seen->line);
+    if (!seen->line)
+        *seen = (rt_place){src->name, src->line};
+    return true;
+}
+
+/* One line that has a token. False after an error; the rest of the line is then skipped. */
+static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
+{
+    rt_line l; /* set by rt_line_begin */
+    const bool in_order = p->has_version || rt_word_equals(keyword, "rt");
+    if (!in_order) {
+        p->has_version = true; /* said once */
+        RT_FAIL_AT(src, rt_word_start(keyword), "found '%.*s%s'; a scene begins with 'rt 1'",
+                   RT_SHOWN(keyword));
+        if (!rt_line_is_keyword(keyword))
+            return false;
+    }
+    p->scene->here = (rt_place){src->name, src->line};
+    if (!rt_line_begin(src, keyword, &l) || !check_order(p, src, &l))
+        return false;
+    if (!rt_line_read(src, &l)) {
+        /* The name counts as defined, so that its uses are not errors too. */
+        const rt_value *name = &l.values[0];
+        if (l.id == RT_STATEMENT_RT)
+            p->has_version = true;
+        if (l.id == RT_STATEMENT_MATERIAL && name->given && name->word.length > 0)
+            rt_scene_define_broken(p, src, &name->word);
+        return false;
+    }
+    return apply[l.id](p, src, &l) && in_order;
+}
+
+static bool read_text(rt_parser *p, rt_source *src)
+{
+    bool good = true;
+    if (src->end - src->cursor >= 3 && memcmp(src->cursor, "\xef\xbb\xbf", 3) == 0)
+        src->line_start = src->cursor += 3;
+    for (; src->cursor < src->end; rt_source_next_line(src)) {
+        rt_word keyword;
+        if (!rt_source_word(src, &keyword))
+            good = false;
+        else if (!rt_word_is_end(&keyword))
+            good = read_line(p, src, &keyword) && good;
+    }
+    return good;
+}
+
+static bool read_file(rt_parser *p, const char *path, rt_source *includer, const char *at)
+{
+    rt_scene *scene = p->scene;
+    const bool is_stdin = !includer && strcmp(path, "-") == 0;
+    char *name = strdup(is_stdin ? "<stdin>" : path);
+    if (!name || !RT_ARRAY_GROW(scene->files, scene->file_count, &scene->file_capacity)) {
+        free(name);
+        return rt_status_no_memory(p->status, "a file name");
+    }
+    scene->files[scene->file_count++] = name;
+
+    rt_file_text text;
+    const char *reason = rt_file_read(is_stdin ? NULL : path, &text);
+    if (reason && includer)
+        return RT_FAIL_AT(includer, at, "cannot read '%.*s': %s", RT_PATH_SHOWN, path, reason);
+    if (reason)
+        return rt_status_fail(p->status, RT_ERROR_SCENE, "rt: cannot read '%s': %s", path, reason);
+    rt_source src = {name,     text.bytes + text.length, text.bytes, text.bytes, 1, includer,
+                     p->status};
+    const bool good = read_text(p, &src);
+    rt_file_free(&text);
+    return good;
+}
+
+bool rt_scene_text_read(rt_scene *scene, const char *path, rt_status *status)
+{
+    rt_parser p = {.scene = scene, .status = status};
+    bool good = read_file(&p, path, NULL, NULL);
+    if (good && !p.has_version)
+        good =
+            rt_status_fail(status, RT_ERROR_SCENE,
+                           "%s:1:1: error: the file has no statement; a scene begins with 'rt 1'",
+                           scene->files[0]);
+    if (p.degenerate_count > 0)
+        rt_status_warn(status,
+                       "%s:%d:1: warning: the triangle has no area and is never hit (%zu such)",
+                       p.degenerate_place.file, p.degenerate_place.line, p.degenerate_count);
+    rt_scene_settle_shadows(&p);
+    rt_scene_forget_materials(&p);
+    rt_scene_choose_unit(scene);
+    return good;
+}

@@ -1,0 +1,237 @@
+/* Quantising, comparing, and files in every format, read back by another library than wrote them.
+ */
+#include "support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "image/image.h"
+
+/* A reader of its own, for all formats: the program's knows those of textures. */
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_FAILURE_USERMSG
+/* Told of at the end of the file, so it stays. */
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wsign-compare"
+#pragma GCC diagnostic ignored "-Wunused-but-set-variable"
+#include <stb_image.h>
+#pragma GCC diagnostic pop
+
+static void steps(void **state)
+{
+    (void)state;
+    assert_int_equal(rt_image_step(0.0f), 0);
+    assert_int_equal(rt_image_step(1.0f), 255);
+    assert_int_equal(rt_image_step(0.5f), 128); /* floor(127.5 + 0.5) */
+    assert_int_equal(rt_image_step(0.2f), 51);
+    assert_int_equal(rt_image_step(0.001f), 0);
+    assert_int_equal(rt_image_step(0.002f), 1);
+    assert_int_equal(rt_image_step(-3.0f), 0);
+    assert_int_equal(rt_image_step(7.0f), 255);
+    assert_int_equal(rt_image_step(INFINITY), 255);
+    assert_int_equal(rt_image_step(-INFINITY), 0);
+    assert_int_equal(rt_image_step(NAN), 0);
+    for (int i = 0; i < 256; ++i)
+        assert_int_equal(rt_image_step((float)i / 255.0f), i);
+}
+
+/* A 5x3 picture with a different value everywhere, all exact 8-bit steps. */
+static void make(rt_image *image, bool with_hits)
+{
+    rt_status status = RT_STATUS_INIT;
+    assert_good(rt_image_init(image, 5, 3, with_hits, &status), &status);
+    for (int i = 0; i < 45; ++i)
+        image->rgb[i] = (float)(5 * i + 3) / 255.0f;
+    for (int i = 0; with_hits && i < 15; ++i)
+        image->hits[i] = (rt_hit){i - 1, (float)i, 0.5f, 0.25f};
+}
+
+static void equal_pictures(void **state)
+{
+    (void)state;
+    rt_image a, b;
+    make(&a, true);
+    make(&b, true);
+    const rt_image_difference d = rt_image_compare(&a, &b);
+    assert_int_equal(d.hits + d.pixels + d.non_finite + (size_t)d.max_step, 0);
+    assert_near(d.rms_step, 0.0, 0.0);
+    assert_int_equal(d.first_x, -1);
+    rt_image_clear(&a);
+    rt_image_clear(&b);
+}
+
+static void different_pictures(void **state)
+{
+    (void)state;
+    rt_image a, b;
+    make(&a, true);
+    make(&b, true);
+    b.rgb[3 * 7 + 1] += 10.0f / 255.0f; /* pixel 2,1 */
+    b.rgb[3 * 9] += 1.0f / 255.0f;      /* one step is not "off" */
+    b.hits[8].u = -b.hits[8].u;         /* pixel 3,1 */
+    b.rgb[3 * 12 + 2] = NAN;
+    const rt_image_difference d = rt_image_compare(&a, &b);
+    assert_int_equal(d.hits, 1);
+    assert_int_equal(d.pixels, 2);
+    assert_int_equal(d.non_finite, 1);
+    assert_int_equal(d.max_step, 5 * 38 + 3); /* the NaN counts as 0 */
+    assert_near(d.rms_step, sqrt((100.0 + 1.0 + 193.0 * 193.0) / 45.0), 1e-9);
+    assert_int_equal(d.first_x, 2);
+    assert_int_equal(d.first_y, 1);
+    rt_image_clear(&a);
+    rt_image_clear(&b);
+}
+
+/* Hits are compared as bits: a zero of another sign is another record. */
+static void hits_are_compared_by_bits(void **state)
+{
+    (void)state;
+    rt_image a, b;
+    make(&a, true);
+    make(&b, true);
+    a.hits[3].v = 0.0f;
+    b.hits[3].v = -0.0f;
+    assert_int_equal(rt_image_compare(&a, &b).hits, 1);
+    rt_image_clear(&a);
+    rt_image_clear(&b);
+}
+
+static void formats_by_extension(void **state)
+{
+    (void)state;
+    assert_int_equal(rt_image_format_of("a.png"), RT_IMAGE_PNG);
+    assert_int_equal(rt_image_format_of("a.b/c.PNG"), RT_IMAGE_PNG);
+    assert_int_equal(rt_image_format_of("a.jpeg"), RT_IMAGE_JPG);
+    assert_int_equal(rt_image_format_of("a.JPG"), RT_IMAGE_JPG);
+    assert_int_equal(rt_image_format_of("x.tga"), RT_IMAGE_TGA);
+    assert_int_equal(rt_image_format_of("x.bmp"), RT_IMAGE_BMP);
+    assert_int_equal(rt_image_format_of("x.hdr"), RT_IMAGE_HDR);
+    assert_int_equal(rt_image_format_of("-"), RT_IMAGE_PNG);
+    assert_int_equal(rt_image_format_of("png"), RT_IMAGE_UNKNOWN);
+    assert_int_equal(rt_image_format_of("a.png/b"), RT_IMAGE_UNKNOWN);
+    assert_int_equal(rt_image_format_of("a.gif"), RT_IMAGE_UNKNOWN);
+}
+
+static const char *write_as(const rt_image *image, const char *name)
+{
+    rt_status status = RT_STATUS_INIT;
+    rt_output output;
+    const char *path = test_path(name);
+    assert_good(rt_output_open(&output, path, &status), &status);
+    assert_good(rt_image_write(image, rt_image_format_of(path), &output, &status), &status);
+    assert_good(rt_output_commit(&output, &status), &status);
+    return path;
+}
+
+static void files_hold_the_picture(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        int tolerance;
+    } files[] = {{"a.png", 0}, {"a.bmp", 0}, {"a.tga", 0}, {"a.jpg", 12}};
+    rt_image image;
+    make(&image, false);
+    for (size_t f = 0; f < sizeof files / sizeof *files; ++f) {
+        int width = 0, height = 0, components = 0;
+        unsigned char *pixels =
+            stbi_load(write_as(&image, files[f].name), &width, &height, &components, 3);
+        if (!pixels)
+            fail_msg("%s: %s", files[f].name, stbi_failure_reason());
+        assert_int_equal(width, 5);
+        assert_int_equal(height, 3);
+        for (int i = 0; i < 45; ++i)
+            assert_near(pixels[i], 5 * i + 3, files[f].tolerance);
+        stbi_image_free(pixels);
+    }
+    rt_image_clear(&image);
+}
+
+/* Sizes around the blocks that are quantised at a time, with values of every kind. */
+static void png_is_lossless_at_every_size(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {1, 64}, {21, 1}, {22, 1}, {64, 3}, {257, 131}};
+    static const float odd[] = {NAN, INFINITY, -INFINITY, -0.0f, -1.0f, 1.5f, 1e30f, 1e-30f};
+    test_random random = {7};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; ++s) {
+        rt_image image;
+        rt_status status = RT_STATUS_INIT;
+        int width = 0, height = 0, components = 0;
+        assert_good(rt_image_init(&image, sizes[s][0], sizes[s][1], false, &status), &status);
+        const int count = 3 * image.width * image.height;
+        for (int i = 0; i < count; ++i)
+            image.rgb[i] = i % 5 == 4 ? odd[test_random_bits(&random) % 8]
+                                      : test_random_float(&random, -0.1f, 1.1f);
+        unsigned char *pixels =
+            stbi_load(write_as(&image, "b.png"), &width, &height, &components, 3);
+        assert_non_null(pixels);
+        assert_true(width == image.width && height == image.height && components == 3);
+        for (int i = 0; i < count; ++i)
+            assert_int_equal(pixels[i], rt_image_step(image.rgb[i]));
+        stbi_image_free(pixels);
+        rt_image_clear(&image);
+    }
+}
+
+static void hdr_keeps_what_is_above_one(void **state)
+{
+    (void)state;
+    rt_image image;
+    make(&image, false);
+    image.rgb[0] = 7.5f;
+    int width = 0, height = 0, components = 0;
+    float *pixels = stbi_loadf(write_as(&image, "a.hdr"), &width, &height, &components, 3);
+    assert_non_null(pixels);
+    assert_int_equal(width * height, 15);
+    /* RGBE: 8 bits of mantissa below the largest component. */
+    for (int i = 0; i < 45; ++i)
+        assert_near(pixels[i], image.rgb[i], i < 3 ? 8.0 / 256 : 2.0 / 256);
+    stbi_image_free(pixels);
+    rt_image_clear(&image);
+}
+
+static void hit_records_are_little_endian(void **state)
+{
+    (void)state;
+    rt_image image;
+    rt_status status = RT_STATUS_INIT;
+    rt_output output;
+    make(&image, true);
+    const char *path = test_path("a.hits");
+    assert_good(rt_output_open(&output, path, &status), &status);
+    assert_good(rt_image_write_hits(&image, &output, &status), &status);
+    assert_good(rt_output_commit(&output, &status), &status);
+    size_t length = 0;
+    char *bytes = test_read_file(path, &length);
+    assert_int_equal(length, 15 * 16);
+    /* Pixel 2,0: primitive 1, t 2, u 0.5, v 0.25. */
+    const unsigned char expected[16] = {1, 0, 0, 0, 0, 0, 0, 0x40, 0, 0, 0, 0x3f, 0, 0, 0x80, 0x3e};
+    assert_memory_equal(bytes + 32, expected, 16);
+    const unsigned char miss[4] = {0xff, 0xff, 0xff, 0xff};
+    assert_memory_equal(bytes, miss, 4);
+    free(bytes);
+    rt_image_clear(&image);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(steps),
+        cmocka_unit_test(equal_pictures),
+        cmocka_unit_test(different_pictures),
+        cmocka_unit_test(hits_are_compared_by_bits),
+        cmocka_unit_test(formats_by_extension),
+        cmocka_unit_test(files_hold_the_picture),
+        cmocka_unit_test(png_is_lossless_at_every_size),
+        cmocka_unit_test(hdr_keeps_what_is_above_one),
+        cmocka_unit_test(hit_records_are_little_endian),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,2 @@
+/* The scalar reference in float. */
+#include "support/scalar_cases.h"

@@ -1,0 +1,3 @@
+/* The scalar reference in double. */
+#define RT_SCALAR_DOUBLE
+#include "support/scalar_cases.h"

@@ -1,0 +1,41 @@
+/* From effects, walk and device to the options that the kernels are built with. */
+#include "support/support.h"
+
+#include <string.h>
+
+#include "render/variant.h"
+
+static void options_name_what_the_scene_has(void **state)
+{
+    (void)state;
+    char options[RT_VARIANT_OPTIONS_SIZE];
+    const rt_effects effects = {.has_triangles = true, .cull_sign = -1, .exponent_bits = 8};
+    const rt_walk walk = {
+        .lanes = 4, .packet = 64, .stack_size = 65, .accuracy = RT_ACCURACY_STANDARD};
+    rt_variant_options(&effects, &walk, RT_ROUNDING_DOUBLE, options);
+    assert_string_equal(options, "-cl-std=CL1.2 -DRT_ACCURACY=1 -DRT_LANES=4 -DRT_PACKET=64 "
+                                 "-DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
+                                 "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
+                                 "-DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_SHININESS_BITS=8 "
+                                 "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1 -DRT_LIGHTS=0");
+    rt_variant_options(&effects, &walk, RT_ROUNDING_DEVICE, options);
+    assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
+}
+
+static void rounding_follows_the_device(void **state)
+{
+    (void)state;
+    rt_device device = {.rounds_divide_sqrt = true, .has_fp64 = true};
+    assert_int_equal(rt_variant_rounding(&device), RT_ROUNDING_DEVICE);
+    device.rounds_divide_sqrt = false;
+    assert_int_equal(rt_variant_rounding(&device), RT_ROUNDING_DOUBLE);
+    device.has_fp64 = false;
+    assert_int_equal(rt_variant_rounding(&device), RT_ROUNDING_FMA);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(options_name_what_the_scene_has),
+                                       cmocka_unit_test(rounding_follows_the_device)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,527 @@
+/* What a study says, writes and leaves behind. */
+#define _GNU_SOURCE
+#include "support/support.h"
+
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "study/closed_mesh.h"
+#include "study/plot.h"
+#include "study/report.h"
+#include "study/verdict.h"
+
+static char errors[8192];
+
+/* Runs a command in which $T is the test folder and $RT the program. */
+static int run(const char *command)
+{
+    setenv("T", test_folder(), 1);
+    return test_run(command, errors, sizeof errors);
+}
+
+static void assert_says(const char *text, const char *words)
+{
+    if (!strstr(text, words))
+        fail_msg("'%s' is not in: %s", words, text);
+}
+
+/* A study of standard and robust at 1, 4 and 16 samples, as somebody might have measured it: too
+ * few samples put 1000 pixels off, then 500, then 100. */
+static void make_up(rt_study *study, rt_study_cell cells[6])
+{
+    static const rt_device device = {
+        .name = "a \"device\"", .platform_name = "platform", .driver = "1"};
+    static const size_t off[] = {1000, 500, 100};
+    *study = (rt_study){.scene = "made, up.txt",
+                        .device = &device,
+                        .width = 100,
+                        .height = 100,
+                        .plan = {{false, true, true, false}, {1, 4, 16}, 3, 9},
+                        .base = RT_ACCURACY_STANDARD,
+                        .reference_is_scalar = true,
+                        .reference_level = RT_ACCURACY_DOUBLE,
+                        .converged_samples = 64,
+                        .level_count = 2,
+                        .cells = cells,
+                        .cell_count = 6,
+                        .no_edges = "the scene has no triangles"};
+    for (size_t i = 0; i < 6; ++i) {
+        const double ms = 1e-3 * study->plan.samples[i / 2] * (i % 2 ? 1.5 : 1.0);
+        const double ratio = i % 2 ? 1.5 : 1.0;
+        cells[i] = (rt_study_cell){.level = i % 2 ? RT_ACCURACY_ROBUST : RT_ACCURACY_STANDARD,
+                                   .samples = study->plan.samples[i / 2],
+                                   .kernel = {0.99 * ms, ms, 1.01 * ms},
+                                   .ratio = {0.99 * ratio, ratio, 1.01 * ratio},
+                                   .seen = {.over_1 = off[i / 2], .rms = 4.0 / (double)(1 + i / 2)},
+                                   .arithmetic = {.rms = i % 2 ? 0.0 : 0.01}};
+        study->sampling[i / 2] = (rt_study_error){.over_1 = off[i / 2], .rms = 4.0};
+    }
+    for (size_t i = 0; i < 2; ++i)
+        study->levels[i] = (rt_study_level){.level = i ? RT_ACCURACY_ROBUST : RT_ACCURACY_STANDARD,
+                                            .rays = 10000,
+                                            .t_p50 = NAN,
+                                            .t_p99 = NAN,
+                                            .t_max = NAN};
+}
+
+/* The verdict where robust changes so many pixels at 1, 4 and 16 samples. */
+static void assert_verdict(size_t at_1, size_t at_4, size_t at_16, const char *words)
+{
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    cells[1].changed = at_1;
+    cells[3].changed = at_4;
+    cells[5].changed = at_16;
+    char *text = rt_study_verdict(&study);
+    assert_non_null(text);
+    assert_says(text, words);
+    assert_true((strstr(text, "The levels agree") != NULL) ==
+                (at_1 <= 10 && at_4 <= 5 && at_16 <= 1));
+    free(text);
+}
+
+static void what_a_level_buys(void **state)
+{
+    (void)state;
+    assert_verdict(0, 0, 0, "Up to 16 samples a pixel, robust changes nothing that you can see");
+    assert_verdict(10, 5, 1, "Up to 16 samples a pixel, robust changes nothing that you can see");
+    assert_verdict(10, 5, 2,
+                   "Below 16 samples a pixel, robust changes nothing that you can see on "
+                   "this scene; from 16 on it does (at 16: 2 of 10000 pixels");
+    assert_verdict(10, 6, 2, "Below 4 samples a pixel, robust changes nothing that you can see");
+    assert_verdict(11, 6, 2, "At every count of samples, robust changes what you see");
+    assert_verdict(11, 5, 1,
+                   "From 4 samples a pixel on, robust changes nothing that you can see on "
+                   "this scene; below it does (at 1: 11 of 10000 pixels");
+    assert_verdict(10, 6, 1,
+                   "At 1 and 16 samples a pixel, robust changes nothing that you can see "
+                   "on this scene; at 4 it does (at 4: 6 of");
+}
+
+static void what_a_level_costs(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = rt_study_verdict(&study);
+    assert_says(text, "It takes 1.50 times the kernel time of standard, quartiles 1.48 to 1.52.");
+    free(text);
+    /* 1 is between the quartiles, or just one of them. */
+    cells[5].ratio = (rt_spread){0.98, 1.02, 1.05};
+    text = rt_study_verdict(&study);
+    assert_says(text, "Against standard it has no measurable cost: 1.02 of its kernel time, "
+                      "quartiles 0.98 to 1.05.");
+    free(text);
+    assert_true(rt_study_is_free(&(rt_spread){1.0, 1.1, 1.2}));
+    assert_true(rt_study_is_free(&(rt_spread){1.004, 1.1, 1.2}));
+    assert_false(rt_study_is_free(&(rt_spread){1.01, 1.1, 1.2}));
+    assert_false(rt_study_is_free(&(rt_spread){0.8, 0.9, 0.99}));
+    study.kernel_is_wall = true;
+    cells[5].ratio = (rt_spread){1.1, 1.2, 1.3};
+    text = rt_study_verdict(&study);
+    assert_says(text, "It takes 1.20 times the time of standard");
+    free(text);
+}
+
+/* By arithmetic; robust is exact unless said otherwise. */
+static void what_goes_wrong(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = rt_study_verdict(&study);
+    assert_says(text, "The levels agree: this scene has no case so hard that one could see a "
+                      "difference. No level studied puts pixels off by arithmetic where you could "
+                      "see it; standard takes the least time.\n");
+    free(text);
+    cells[4].arithmetic.over_1 = 1; /* hidden by 100 that too few samples put off */
+    text = rt_study_verdict(&study);
+    assert_says(text, "The levels agree");
+    free(text);
+    cells[4].arithmetic.over_1 = 2;
+    text = rt_study_verdict(&study);
+    assert_null(strstr(text, "The levels agree"));
+    assert_says(text, "standard puts pixels off by arithmetic where you can see it; of the others, "
+                      "robust takes the least time.\n");
+    free(text);
+    cells[1].arithmetic.over_1 = 11;
+    text = rt_study_verdict(&study);
+    assert_says(text, "standard and robust put pixels off by arithmetic where you can see it, and "
+                      "no other was studied.\n");
+    free(text);
+    cells[0] = cells[1];
+    study.level_count = study.plan.sample_count = 1;
+    text = rt_study_verdict(&study);
+    assert_string_equal(text, "standard puts pixels off by arithmetic where you can see it, and no "
+                              "other was studied.\n");
+    free(text);
+    cells[0].arithmetic.over_1 = 0;
+    text = rt_study_verdict(&study);
+    assert_string_equal(text, "No level studied puts pixels off by arithmetic where you could see "
+                              "it.\n");
+    free(text);
+}
+
+/* Robust has no error of arithmetic; against the converged picture it is as good as standard. */
+static void what_is_dominated(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    rt_study_conclude(&study);
+    for (size_t i = 0; i < 6; ++i) {
+        assert_int_equal(cells[i].seen_is_dominated, i % 2);
+        assert_int_equal(cells[i].arithmetic_is_dominated, false);
+    }
+    cells[3].arithmetic.rms = 0.02;
+    rt_study_conclude(&study);
+    assert_true(cells[3].arithmetic_is_dominated);
+    assert_false(cells[2].arithmetic_is_dominated);
+}
+
+static size_t count_of(const char *text, const char *what)
+{
+    size_t count = 0;
+    for (const char *p = text; (p = strstr(p, what)); p += strlen(what))
+        ++count;
+    return count;
+}
+
+static char *written(bool (*write)(const rt_study *, rt_output *, rt_status *),
+                     const rt_study *study)
+{
+    rt_status status = RT_STATUS_INIT;
+    rt_output output;
+    assert_good(rt_output_open(&output, test_path("made-up"), &status), &status);
+    assert_good(write(study, &output, &status), &status);
+    assert_good(rt_output_commit(&output, &status), &status);
+    return test_read_file(test_path("made-up"), NULL);
+}
+
+/* Fields with commas and quotes are quoted, every line has as many as the first, and ends in CRLF;
+ * what was not measured is an empty field. */
+static void csv(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = written(rt_study_write_csv, &study);
+    assert_int_equal(count_of(text, "\r\n"), 7);
+    assert_int_equal(count_of(text, "\n"), 7);
+    assert_int_equal(count_of(text, "\n\"made, up.txt\",\"a \"\"device\"\"\",100,100,"), 6);
+    assert_int_equal(count_of(text, ",robust,16,"), 1);
+    const size_t columns = count_of(strtok(text, "\n"), ",");
+    for (int i = 0; i < 6; ++i) {
+        const char *line = strtok(NULL, "\n");
+        assert_int_equal(count_of(line, ","), columns + 1); /* one is within a field */
+        assert_non_null(strstr(line, ",10000,0,0,,,,0,0,,,\r"));
+    }
+    free(text);
+}
+
+static void json(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = written(rt_study_write_json, &study);
+    json_error_t error;
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, &error);
+    if (!root)
+        fail_msg("%s", error.text);
+    assert_int_equal(json_array_size(json_object_get(root, "pictures")), 6);
+    assert_int_equal(json_array_size(json_object_get(root, "same_rays")), 2);
+    const json_t *level = json_array_get(json_object_get(root, "same_rays"), 0);
+    assert_true(json_is_null(json_object_get(level, "leaks")));
+    assert_true(json_is_null(json_object_get(json_object_get(level, "t_error_ulp"), "p50")));
+    json_decref(root);
+    free(text);
+}
+
+static bool write_md(const rt_study *study, rt_output *output, rt_status *status)
+{
+    return rt_study_write_md(study, NULL, output, status);
+}
+
+static void md(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    char *text = written(write_md, &study);
+    assert_says(text, "\n| 16 | robust | 24 | 1.50 (1.48 to 1.52) | ");
+    assert_says(text, "scalar path in double, at 64 samples");
+    assert_says(text, "not applicable, the scene has no triangles.");
+    assert_null(strstr(text, "does not have"));
+    assert_null(strstr(text, "!["));
+    free(text);
+    /* On a poorer device, where the scalar path takes too long. */
+    study.lacks[RT_ACCURACY_DOUBLE] = true;
+    study.reference_is_scalar = false;
+    study.reference_level = RT_ACCURACY_ROBUST;
+    study.reference_seconds = 123.4;
+    study.kernel_is_wall = true;
+    text = written(write_md, &study);
+    assert_says(text, "This device does not have the level double.");
+    assert_says(text,
+                "would take 123 s for one sample a pixel, so the reference of the pictures is "
+                "the device at robust");
+    assert_says(text, " | the reference | | |\n");
+    assert_says(text, "This device has no clock");
+    free(text);
+}
+
+static char *script_of(const rt_study *study)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    rt_study_plot_script(study, "a.svg", "it's.png", out);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* What has no logarithm is drawn at the tick 0; what another does as well is grey; leaks are drawn
+ * where they were looked for. */
+static void the_plot(void **state)
+{
+    (void)state;
+    rt_study study;
+    rt_study_cell cells[6];
+    make_up(&study, cells);
+    rt_study_conclude(&study);
+    char *text = script_of(&study);
+    assert_says(text, "\nset output 'a.svg'\n");
+    assert_says(text, "\nset output 'it''s.png'\n");
+    assert_says(text, "$standard_0 << END\n1 1 0.99 1.01 4 0\n4 4 3.96 4.04 2 0\n");
+    assert_says(text, "$robust_0 << END\n1 1.5 1.485 1.515 4 1\n");
+    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 0.001 0\n");
+    assert_says(text, "set ytics add (\"0\" 0.001)");
+    assert_says(text, "\"robust: changes nothing that you can see up to 16 samples; 1.50 times the "
+                      "time of standard\"");
+    assert_null(strstr(text, "closed mesh"));
+    free(text);
+    study.no_edges = NULL;
+    study.levels[0].edge_rays = study.levels[1].edge_rays = 1000;
+    study.levels[0].leaks = 20;
+    study.levels[0].double_hits = 5;
+    study.reference_is_scalar = false;
+    study.reference_level = RT_ACCURACY_ROBUST;
+    text = script_of(&study);
+    assert_says(text, "closed mesh");
+    assert_says(text, "$standard_2 << END\n1 1 0.99 1.01 25000 0\nEND\n");
+    assert_says(text, "$robust_2 << END\n1 1.5 1.485 1.515 1000 0\nEND\n");
+    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 nan 0\n");
+    free(text);
+}
+
+/* Two tetrahedra, of which one lacks a side, and a stray triangle. */
+static void closed_meshes(void **state)
+{
+    (void)state;
+    static const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -0.0f, 1}};
+    static const int sides[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    const rt_material dull = {0};
+    rt_status status = RT_STATUS_INIT;
+    rt_study_mesh mesh;
+    rt_scene scene;
+    rt_scene_init(&scene);
+    assert_good(rt_scene_add_material(&scene, &dull, &status), &status);
+    assert_good(rt_study_mesh_find(&mesh, &scene, &status), &status);
+    assert_int_equal(mesh.count, 0);
+    for (int i = 0; i < 7; ++i) {
+        const float *a = corners[sides[i % 4][0]], *b = corners[sides[i % 4][1]],
+                    *c = corners[sides[i % 4][2]], dx = i < 3 ? 5.0f : 0.0f;
+        const rt_triangle t = {a[0] + dx, a[1], a[2], b[0] + dx, b[1], b[2], c[0] + dx, c[1], c[2]};
+        assert_good(rt_scene_add_triangle(&scene, &t, NULL, 0, &status), &status);
+        assert_good(rt_study_mesh_find(&mesh, &scene, &status), &status);
+        assert_int_equal(mesh.count, i == 6 ? 4 : 0);
+        if (i < 6)
+            rt_study_mesh_clear(&mesh);
+    }
+    /* In a tetrahedron everyone is everyone's neighbour. */
+    int seen = 0;
+    for (size_t i = 0; i < mesh.count; ++i) {
+        assert_true(mesh.triangles[i].ax < 5.0f);
+        seen |= 1 << mesh.colors[i];
+    }
+    assert_int_equal(seen, 15);
+    rt_study_mesh_clear(&mesh);
+    rt_scene_clear(&scene);
+}
+
+#define TINY                                                                                       \
+    "$RT --study $T/tiny --study-levels fast,standard --study-samples 1,4 --study-repeats 1 "      \
+    "--size 24x16 "
+
+static void assert_files(const char *report, bool tables, bool plot)
+{
+    static const char *const endings[] = {"json", "csv", "md", "svg", "png"};
+    for (int i = 0; i < 5; ++i) {
+        char name[64];
+        struct stat info;
+        snprintf(name, sizeof name, "%s.%s", report, endings[i]);
+        const bool exists = stat(test_path(name), &info) == 0;
+        if (exists != (i < 3 ? tables : plot))
+            fail_msg("%s %s", name, exists ? "is there" : "is not there");
+        assert_true(!exists || info.st_size > 100);
+    }
+    char command[128];
+    snprintf(command, sizeof command, "[ -z \"$(ls $T/%s.*.?????? 2>/dev/null)\" ]", report);
+    assert_int_equal(run(command), 0);
+}
+
+static bool has_gnuplot(void)
+{
+    return run("command -v gnuplot >$T/which") == 0;
+}
+
+static void a_tiny_study(void **state)
+{
+    (void)state;
+    const bool plots = has_gnuplot();
+    assert_int_equal(run(TINY "scenes/icecream.txt"), 0);
+    assert_files("tiny", true, plots);
+    char *text = test_read_file(test_path("tiny.csv"), NULL);
+    assert_int_equal(count_of(text, "\r\n"), 5);
+    assert_int_equal(count_of(text, ",24,16,fast,1,"), 1);
+    assert_int_equal(count_of(text, ",24,16,standard,4,"), 1);
+    free(text);
+    json_error_t error;
+    json_t *root = json_load_file(test_path("tiny.json"), JSON_REJECT_DUPLICATES, &error);
+    if (!root)
+        fail_msg("%s", error.text);
+    const json_t *level = json_array_get(json_object_get(root, "same_rays"), 1);
+    assert_string_equal(json_string_value(json_object_get(level, "level")), "standard");
+    assert_int_equal(json_integer_value(json_object_get(level, "rays")), 24 * 16);
+    assert_true(json_integer_value(json_object_get(level, "hits")) > 10);
+    assert_true(json_real_value(json_object_get(json_object_get(level, "t_error_ulp"), "p50")) <
+                8.0);
+    /* The cone has no lid. */
+    assert_true(json_is_null(json_object_get(level, "edge_rays")));
+    const json_t *cell = json_array_get(json_object_get(root, "pictures"), 1);
+    assert_int_equal(json_integer_value(json_object_get(
+                         json_object_get(cell, "against_same_samples"), "pixels_over_1")),
+                     0);
+    json_decref(root);
+    text = test_read_file(test_path("tiny.md"), NULL);
+    assert_says(text, "\nThe levels agree");
+    assert_says(text, "not applicable, no mesh of the scene is closed");
+    assert_true((strstr(text, "(tiny.svg)") != NULL) == plots);
+    free(text);
+}
+
+/* A closed mesh: Moller and Trumbore's test is not watertight, which rays at edges show at once. */
+static void edges(void **state)
+{
+    (void)state;
+    assert_int_equal(run("$RT -q --study $T/mesh --study-levels standard --study-samples 1 "
+                         "--study-repeats 1 --size 16x16 scenes/mesh.txt"),
+                     0);
+    json_error_t error;
+    json_t *root = json_load_file(test_path("mesh.json"), 0, &error);
+    assert_non_null(root);
+    const json_t *level = json_array_get(json_object_get(root, "same_rays"), 0);
+    assert_int_equal(json_integer_value(json_object_get(level, "edge_rays")), 200000);
+    const json_int_t leaks = json_integer_value(json_object_get(level, "leaks"));
+    const json_int_t doubles = json_integer_value(json_object_get(level, "double_hits"));
+    assert_true(leaks > 200 && leaks < 100000);
+    assert_true(doubles > 200 && doubles < 100000);
+    json_decref(root);
+}
+
+static void without_gnuplot(void **state)
+{
+    (void)state;
+    /* OpenCL runtimes find their linkers by PATH, so everything else stays. */
+    assert_int_equal(run("mkdir $T/path && ln -sf /bin/* /usr/bin/* $T/path/ && rm -f "
+                         "$T/path/gnuplot"),
+                     0);
+    assert_int_equal(run("rm -f $T/tiny.*; PATH=$T/path " TINY "scenes/sphere.txt"), 0);
+    assert_says(errors, "there is no gnuplot; on Debian: apt-get install gnuplot-nox");
+    assert_files("tiny", true, false);
+    assert_int_equal(run("rm -f $T/tiny.*; PATH=$T/path " TINY "-q scenes/sphere.txt"), 0);
+    assert_string_equal(errors, "");
+    /* One that fails is no better. */
+    assert_int_equal(run("rm -f $T/tiny.*; mkdir -p $T/bin && printf '#!/bin/sh\\nexit 3\\n' "
+                         ">$T/bin/gnuplot && chmod +x $T/bin/gnuplot && PATH=$T/bin:$PATH " TINY
+                         "scenes/sphere.txt"),
+                     0);
+    assert_says(errors, "gnuplot failed");
+    assert_files("tiny", true, false);
+}
+
+static void names_with_quotes(void **state)
+{
+    (void)state;
+    if (!has_gnuplot())
+        skip();
+    assert_int_equal(run("cp scenes/sphere.txt \"$T/it's_a.txt\" && $RT -q --study \"$T/it's\" "
+                         "--study-levels fast --study-samples 1 --study-repeats 1 --size 8x8 "
+                         "\"$T/it's_a.txt\" && [ -s \"$T/it's.png\" ]"),
+                     0);
+}
+
+static void failures(void **state)
+{
+    (void)state;
+    assert_int_equal(run("rm -f $T/tiny.*; " TINY "scenes/bad/unknown-name.txt"), 1);
+    assert_int_equal(run("$RT --study $T/missing/r scenes/sphere.txt"), 4);
+    assert_says(errors, "No such file or directory");
+    assert_int_equal(run(TINY "--study-levels exact scenes/sphere.txt"), 2);
+    assert_int_equal(run("mkdir -p $T/empty; OCL_ICD_VENDORS=$T/empty " TINY "scenes/sphere.txt"),
+                     3);
+    assert_files("tiny", false, false);
+}
+
+/* A study of minutes, stopped after one that is there already; nothing of it is touched. */
+static void an_interrupt(void **state)
+{
+    (void)state;
+    assert_int_equal(run(TINY "-q scenes/sphere.txt && cp $T/tiny.json $T/before.json"), 0);
+    assert_int_equal(run("$RT --progress always --study $T/tiny --study-repeats 1000 "
+                         "scenes/icecream.txt & pid=$!; sleep 3; kill -INT $pid; wait $pid"),
+                     130);
+    assert_says(errors, " %, 0:0");
+    assert_says(errors, "rt: interrupted\n");
+    assert_int_equal(run("cmp $T/tiny.json $T/before.json"), 0);
+    assert_files("tiny", true, has_gnuplot());
+    assert_int_equal(run("$RT -q --study $T/none --study-repeats 1000 scenes/icecream.txt & "
+                         "pid=$!; sleep 1; kill -INT $pid; wait $pid"),
+                     130);
+    assert_files("none", false, false);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_a_level_buys),
+        cmocka_unit_test(what_a_level_costs),
+        cmocka_unit_test(what_is_dominated),
+        cmocka_unit_test(what_goes_wrong),
+        cmocka_unit_test(csv),
+        cmocka_unit_test(json),
+        cmocka_unit_test(closed_meshes),
+        cmocka_unit_test(md),
+        cmocka_unit_test(the_plot),
+        cmocka_unit_test(a_tiny_study),
+        cmocka_unit_test(edges),
+        cmocka_unit_test(without_gnuplot),
+        cmocka_unit_test(names_with_quotes),
+        cmocka_unit_test(failures),
+        cmocka_unit_test(an_interrupt),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

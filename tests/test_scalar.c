@@ -1,2 +1,0 @@
-/* The scalar reference in float. */
-#include "scalar_cases.h"

@@ -1,3 +1,0 @@
-/* The scalar reference in double. */
-#define RT_SCALAR_DOUBLE
-#include "scalar_cases.h"
