@@ -1,5 +1,7 @@
 /* A tile's way through the stages: sample by sample of its pixels, and each sample pass by pass,
  * until no ray goes on. */
+#include "render/passes.h"
+
 #include "render/state.h"
 
 /* What the passes over one tile share. */
@@ -42,7 +44,7 @@ static bool set_turn(passes *p, enum rt_stage stage)
 
 static bool launch(passes *p, enum rt_stage stage, size_t rays)
 {
-    return rt_renderer_launch(p->r, stage, rays, p->f, p->status);
+    return rt_flight_launch(p->f, p->r, stage, rays, p->status);
 }
 
 /* The probes to light `row`, or of ambient light: as many samples at a time as the probes' array
@@ -92,7 +94,7 @@ static bool pack(passes *p)
                                    RT_COUNT_COMPONENTS * blocks * sizeof *counts, counts, 0, NULL,
                                    &event),
                p->status) ||
-        !rt_flight_add(r, p->f, EVENT_READ, event, p->status))
+        !rt_flight_add(p->f, r, EVENT_READ, event, p->status))
         return false;
     cl_int total = 0;
     for (size_t i = 0; i < blocks; ++i) {
@@ -162,11 +164,11 @@ static bool read_tile(passes *p, enum tile_buffer buffer, void *pixels, size_t s
                                          region, region[0], 0, (size_t)r->width * size, 0, pixels,
                                          0, NULL, &event),
                  p->status) &&
-           rt_flight_add(r, p->f, EVENT_READ, event, p->status);
+           rt_flight_add(p->f, r, EVENT_READ, event, p->status);
 }
 
-bool rt_renderer_start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image, flight *f,
-                            const rt_watch *watch, double done, double share, rt_status *status)
+bool rt_passes_start(rt_renderer *r, const rt_tile *tile, rt_image *image, flight *f,
+                     const rt_watch *watch, double done, double share, rt_status *status)
 {
     passes all = {.r = r, .tile = tile, .f = f, .status = status}, *p = &all;
     static const enum rt_stage placed[] = {RT_STAGE_CAMERA, RT_STAGE_RESOLVE, RT_STAGE_HITS,
@@ -190,7 +192,7 @@ bool rt_renderer_start_tile(rt_renderer *r, const rt_tile *tile, rt_image *image
            RT_CL(clFlush(r->queue), status);
 }
 
-bool rt_renderer_count_probes(rt_renderer *r, rt_status *status)
+bool rt_passes_count_probes(rt_renderer *r, rt_status *status)
 {
     if (!r->tile[BUFFER_CAST])
         return true;

@@ -1,5 +1,6 @@
-/* The stages of a picture: the arrays between them, their kernels, their arguments. What no effect
- * calls for is not made. */
+/* What no effect calls for is not made. */
+#include "render/pipeline.h"
+
 #include "render/state.h"
 
 /* Every stage, and the one whose kernel and arguments it has. */

@@ -65,7 +65,7 @@ static bool trace_stage(rt_renderer *r, enum rt_stage stage, const rt_ray *rays,
         if (!stage_component(r, target, rays, count, padded, c, status))
             return false;
     flight *f = &r->flights[0];
-    return rt_renderer_launch(r, stage, padded, f, status) && rt_renderer_finish(r, f, status);
+    return rt_flight_launch(f, r, stage, padded, status) && rt_flight_finish(f, r, status);
 }
 
 /* Reads `count` values of `size` bytes of a buffer, from value `first` on, to r->staging. */

@@ -5,6 +5,7 @@
 
 #include "common/clock.h"
 #include "opencl/program.h"
+#include "render/passes.h"
 #include "render/state.h"
 #include "render/variant.h"
 
@@ -16,19 +17,6 @@ int rt_renderer_lanes(const rt_renderer *renderer)
 const rt_render_times *rt_renderer_times(const rt_renderer *renderer)
 {
     return &renderer->times;
-}
-
-/* Seconds that a finished command ran; 0 where the device does not tell. */
-static double event_seconds(cl_event event)
-{
-    cl_ulong start = 0, end = 0;
-    if (clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, NULL) !=
-            CL_SUCCESS ||
-        clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, NULL) !=
-            CL_SUCCESS ||
-        end < start)
-        return 0.0;
-    return 1e-9 * (double)(end - start);
 }
 
 static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
@@ -111,14 +99,6 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
     return NULL;
 }
 
-static void release_events(flight *f)
-{
-    for (size_t i = 0; i < f->count; ++i)
-        clReleaseEvent(f->events[i]);
-    f->count = 0;
-    f->busy = false;
-}
-
 void rt_renderer_free(rt_renderer *r)
 {
     if (!r)
@@ -126,7 +106,7 @@ void rt_renderer_free(rt_renderer *r)
     if (r->queue)
         clFinish(r->queue);
     for (int i = 0; i < TILES_IN_FLIGHT; ++i)
-        release_events(&r->flights[i]);
+        rt_flight_release(&r->flights[i]);
     rt_pipeline_release(r);
     rt_device_scene_release(&r->scene);
     if (r->program)
@@ -141,64 +121,11 @@ void rt_renderer_free(rt_renderer *r)
     free(r);
 }
 
-/* Rays that a work-item of a kernel takes: RT_PACKET and RT_ITEM_RAYS of the kernels. */
-static size_t rays_an_item(const rt_renderer *r, enum rt_stage kernel)
-{
-    if (kernel == RT_STAGE_TRACE || kernel == RT_STAGE_OCCLUDE)
-        return (size_t)r->packet;
-    const bool takes_blocks = kernel == RT_STAGE_SHADE || kernel == RT_STAGE_SHADOW_RAYS ||
-                              kernel == RT_STAGE_AMBIENT_RAYS;
-    return takes_blocks && r->lanes > 1 ? RT_BLOCK_RAYS : 1;
-}
-
-bool rt_renderer_launch(rt_renderer *r, enum rt_stage stage, size_t rays, flight *f,
-                        rt_status *status)
-{
-    const enum rt_stage kernel = rt_stage_of_kernel(stage);
-    const size_t rays_per_item = rays_an_item(r, kernel);
-    const size_t global = rays / rays_per_item;
-    const size_t local = RT_BLOCK_RAYS / rays_per_item;
-    cl_event event = NULL;
-    r->times.launches[stage]++;
-    return RT_CL(clEnqueueNDRangeKernel(r->queue, r->kernels[kernel], 1, NULL, &global, &local, 0,
-                                        NULL, &event),
-                 status) &&
-           rt_flight_add(r, f, (int)stage, event, status);
-}
-
-/* Waits for the commands so far and takes their times. */
-static bool land(rt_renderer *r, flight *f, rt_status *status)
-{
-    const bool good = f->count == 0 || RT_CL(clWaitForEvents((cl_uint)f->count, f->events), status);
-    for (size_t i = 0; good && i < f->count; ++i)
-        *(f->stages[i] == EVENT_READ ? &r->times.readback : &r->times.stages[f->stages[i]]) +=
-            event_seconds(f->events[i]);
-    release_events(f);
-    return good;
-}
-
-bool rt_flight_add(rt_renderer *r, flight *f, int stage, cl_event event, rt_status *status)
-{
-    f->busy = true;
-    f->events[f->count] = event;
-    f->stages[f->count++] = stage;
-    if (f->count < EVENTS_IN_FLIGHT)
-        return true;
-    const bool good = land(r, f, status);
-    f->busy = true;
-    return good;
-}
-
-bool rt_renderer_finish(rt_renderer *r, flight *f, rt_status *status)
-{
-    return !f->busy || land(r, f, status);
-}
-
 static bool finish_all(rt_renderer *r, rt_status *status)
 {
     bool good = true;
     for (int i = 0; i < TILES_IN_FLIGHT; ++i)
-        good = rt_renderer_finish(r, &r->flights[i], status) && good;
+        good = rt_flight_finish(&r->flights[i], r, status) && good;
     return good;
 }
 
@@ -213,17 +140,17 @@ bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, co
         flight *f = &r->flights[tiles->takers > 1 && i == 1 ? 0 : i % TILES_IN_FLIGHT];
         const bool landed = f->busy;
         rt_tile tile;
-        good = rt_renderer_finish(r, f, status);
+        good = rt_flight_finish(f, r, status);
         if (good && landed)
             rt_tiles_finish(&taker);
         if (!good || !rt_tiles_take(&taker, &tile))
             break;
         if (!rt_watch_tick(watch, rt_tiles_done(tiles)))
             good = rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
-        good = good && rt_renderer_start_tile(r, &tile, image, f, watch, rt_tiles_done(tiles),
-                                              1.0 / tiles->count, status);
+        good = good && rt_passes_start(r, &tile, image, f, watch, rt_tiles_done(tiles),
+                                       1.0 / tiles->count, status);
     }
-    return finish_all(r, status) && good && rt_renderer_count_probes(r, status);
+    return finish_all(r, status) && good && rt_passes_count_probes(r, status);
 }
 
 bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt_status *status)

@@ -1,0 +1,16 @@
+/* A tile's way through the stages. */
+#ifndef RT_RENDER_PASSES_H
+#define RT_RENDER_PASSES_H
+
+#include "render/flight.h"
+
+/* Takes a tile through all stages, and queues the reads of what comes of it. Where that takes
+ * several passes, asks the watch between them; `done` and `share` are the parts of the picture that
+ * are done before and that the tile is. */
+bool rt_passes_start(rt_renderer *renderer, const rt_tile *tile, rt_image *image, flight *f,
+                     const rt_watch *watch, double done, double share, rt_status *status);
+
+/* Brings the times' counts of probes up to date. */
+bool rt_passes_count_probes(rt_renderer *renderer, rt_status *status);
+
+#endif
