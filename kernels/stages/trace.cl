@@ -66,7 +66,7 @@ INLINE void load_packet(__global const number *source, size_t step, packet *p)
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_trace(const int stride, __global const number *ray_array, __global const rt_node *nodes,
+rt_trace(const int stride, __global const number *rays, __global const rt_node *nodes,
          __global const int *order, __global const rt_sphere_block *spheres,
          const int sphere_blocks, __global const rt_triangle_block *triangles,
          const int triangle_blocks, __global int *hit_index, __global int *hit_slot,
@@ -76,7 +76,7 @@ rt_trace(const int stride, __global const number *ray_array, __global const rt_n
     const size_t step = (size_t)stride;
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;
-    load_packet(ray_array + first, step, &p);
+    load_packet(rays + first, step, &p);
     walk(&p, &w, 0);
     for (int g = 0; g < RT_GROUPS; ++g)
         store_hits(&p.h[g], first + g * RT_LANES, step, hit_index, hit_slot, hit_array);
@@ -86,17 +86,17 @@ rt_trace(const int stride, __global const number *ray_array, __global const rt_n
 /* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
  * differ from device to device; whether there is one does not. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_occlude(const int stride, __global const number *ray_array, __global const rt_node *nodes,
+rt_occlude(const int stride, __global const number *probes, __global const rt_node *nodes,
            __global const int *order, __global const rt_sphere_block *spheres,
            const int sphere_blocks, __global const rt_triangle_block *triangles,
-           const int triangle_blocks, __global int *hit_index)
+           const int triangle_blocks, __global int *blocked)
 {
     const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;
-    load_packet(ray_array + first, (size_t)stride, &p);
+    load_packet(probes + first, (size_t)stride, &p);
     walk(&p, &w, 1);
     for (int g = 0; g < RT_GROUPS; ++g)
-        STORE_INDEX(p.h[g].index, hit_index + first + g * RT_LANES);
+        STORE_INDEX(p.h[g].index, blocked + first + g * RT_LANES);
 }
 #endif

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "opencl/arguments.h"
+
 enum rt_rounding rt_variant_rounding(const rt_device *device)
 {
     if (device->rounds_divide_sqrt)
@@ -59,7 +61,8 @@ void rt_variant_options(const rt_effects *effects, const rt_walk *walk, enum rt_
 {
     const bool all = effects->mode == RT_EFFECTS_ALL;
     snprintf(options, RT_VARIANT_OPTIONS_SIZE,
-             "-cl-std=CL1.2%s%s -DRT_ACCURACY=%d -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d "
+             "-cl-std=CL1.2 " RT_ARGUMENTS_OPTION
+             "%s%s -DRT_ACCURACY=%d -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d "
              "-DRT_STACK=%d "
              "-DRT_OCCLUSION=%d "
              "-DRT_SPHERES=%d -DRT_TRIANGLES=%d -DRT_CULL=%d "

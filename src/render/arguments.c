@@ -1,0 +1,155 @@
+#include "render/arguments.h"
+
+#include "opencl/arguments.h"
+#include "render/state.h"
+
+#define KNOWN_MOST 64
+
+typedef struct known {
+    rt_argument list[KNOWN_MOST];
+    size_t count;
+} known;
+
+static void know(known *k, const char *name, const void *value, size_t size)
+{
+    k->list[k->count++] = (rt_argument){name, value, size};
+}
+
+#define KNOW(known, name, value) know(known, name, &(value), sizeof(value))
+
+/* Arrays between the stages. */
+static void know_tile(known *k, const rt_renderer *r)
+{
+    static const char *const names[BUFFER_COUNT] = {
+        [BUFFER_RAYS] = "rays",           [BUFFER_HIT_INDEX] = "hit_index",
+        [BUFFER_HIT_SLOT] = "hit_slot",   [BUFFER_HIT_ARRAY] = "hit_array",
+        [BUFFER_COLORS] = "colors",       [BUFFER_PICTURE] = "picture",
+        [BUFFER_RECORDS] = "records",     [BUFFER_PROBES] = "probes",
+        [BUFFER_BLOCKED] = "blocked",     [BUFFER_OPEN] = "open",
+        [BUFFER_CAST] = "cast",           [BUFFER_HOME] = "home",
+        [BUFFER_PATHS] = "paths",         [BUFFER_MARKS] = "marks",
+        [BUFFER_NEXT_RAYS] = "next_rays", [BUFFER_NEXT_HOME] = "next_home",
+        [BUFFER_COUNTS] = "counts",       [BUFFER_FIRST] = "first",
+        [BUFFER_WAITING] = "waiting",     [BUFFER_WAITING_MARKS] = "waiting_marks",
+    };
+    for (int i = 0; i < BUFFER_COUNT; ++i)
+        KNOW(k, names[i], r->tile[i]);
+    KNOW(k, "stride", r->stride);
+}
+
+/* The scene's arrays. */
+static void know_scene(known *k, const rt_device_scene *s)
+{
+    KNOW(k, "nodes", s->nodes);
+    KNOW(k, "order", s->order);
+    KNOW(k, "spheres", s->spheres);
+    KNOW(k, "sphere_count", s->sphere_count);
+    KNOW(k, "sphere_blocks", s->sphere_blocks);
+    KNOW(k, "triangles", s->triangles);
+    KNOW(k, "triangle_blocks", s->triangle_blocks);
+    KNOW(k, "normals_of", s->normals_of);
+    KNOW(k, "normals", s->normals);
+    KNOW(k, "material_of", s->materials_of);
+    KNOW(k, "materials", s->materials);
+    KNOW(k, "lights", s->lights);
+    KNOW(k, "uvs_of", s->uvs_of);
+    KNOW(k, "uvs", s->uvs);
+    KNOW(k, "textures", s->textures);
+    KNOW(k, "texels", s->texels);
+}
+
+/* The bits of the effects that are on, for kernels that are switched by them. */
+static cl_int flags_of(const rt_renderer *r)
+{
+    static const struct {
+        enum rt_effect effect;
+        cl_int flag;
+    } flags[] = {{RT_EFFECT_CHECKER, RT_FLAG_CHECKER},
+                 {RT_EFFECT_TEXTURE, RT_FLAG_TEXTURE},
+                 {RT_EFFECT_HARD_SHADOWS, RT_FLAG_SHADOWS},
+                 {RT_EFFECT_SOFT_SHADOWS, RT_FLAG_SHADOWS},
+                 {RT_EFFECT_ABSORPTION, RT_FLAG_ABSORB},
+                 {RT_EFFECT_OCCLUSION, RT_FLAG_AMBIENT_OCCLUSION},
+                 {RT_EFFECT_FOG, RT_FLAG_FOG},
+                 {RT_EFFECT_GRADIENT, RT_FLAG_GRADIENT},
+                 {RT_EFFECT_ANTIALIASING, RT_FLAG_ANTIALIAS},
+                 {RT_EFFECT_DEPTH_OF_FIELD, RT_FLAG_LENS}};
+    cl_int bits = 0;
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i)
+        if (r->effects.on[flags[i].effect])
+            bits |= flags[i].flag;
+    return bits;
+}
+
+/* What is given by value and is not the renderer's own. */
+typedef struct values {
+    rt_frame frame;
+    rt_frame_double frame_double;
+    rt_surround surround;
+    rt_gradient gradient;
+    rt_fog fog;
+    rt_crevice crevice;
+    cl_int light_count, samples, depth, flags;
+    /* Set before each launch. */
+    rt_tile tile;
+    rt_turn turn;
+    cl_int total;
+} values;
+
+static values values_of(const rt_renderer *r, const rt_scene *scene)
+{
+    const rt_vec3 low = scene->background, all = scene->ambient, fog = scene->fog;
+    return (values){
+        .frame = rt_scene_frame(scene),
+        .frame_double = rt_scene_frame_double(scene),
+        .surround = {low.x, low.y, low.z, all.x, all.y, all.z},
+        .gradient = rt_scene_gradient(scene),
+        .fog = {fog.x, fog.y, fog.z, scene->fog_density},
+        .crevice = {scene->occlusion_distance, scene->occlusion_samples},
+        .light_count = r->light_count,
+        .samples = r->samples,
+        .depth = r->depth,
+        .flags = flags_of(r) | (scene->filter == RT_FILTER_TENT ? RT_FLAG_TENT : 0),
+    };
+}
+
+static void know_values(known *k, const values *v, const rt_renderer *r)
+{
+    if (r->number_size == sizeof(double))
+        KNOW(k, "frame", v->frame_double);
+    else
+        KNOW(k, "frame", v->frame);
+    KNOW(k, "surround", v->surround);
+    KNOW(k, "gradient", v->gradient);
+    KNOW(k, "fog", v->fog);
+    KNOW(k, "crevice", v->crevice);
+    KNOW(k, "light_count", v->light_count);
+    KNOW(k, "samples", v->samples);
+    KNOW(k, "depth", v->depth);
+    KNOW(k, "flags", v->flags);
+    KNOW(k, "unit_exponent", r->unit_exponent);
+    KNOW(k, "tile", v->tile);
+    KNOW(k, "turn", v->turn);
+    KNOW(k, "total", v->total);
+}
+
+bool rt_renderer_set_arguments(rt_renderer *r, const rt_scene *scene, rt_status *status)
+{
+    const values v = values_of(r, scene);
+    known k = {.count = 0};
+    know_tile(&k, r);
+    know_scene(&k, &r->scene);
+    know_values(&k, &v, r);
+    for (int i = 0; i < RT_STAGE_COUNT; ++i) {
+        cl_kernel kernel = r->kernels[i];
+        r->changing[i] = (changing){-1, -1, -1};
+        if (!kernel)
+            continue;
+        if (!rt_arguments_set(kernel, k.list, k.count, status))
+            return false;
+        r->changing[i] =
+            (changing){rt_arguments_place(kernel, "tile"), rt_arguments_place(kernel, "turn"),
+                       rt_arguments_place(kernel, "total")};
+    }
+    return true;
+}
