@@ -1,4 +1,4 @@
-/* What the mesh readers share with mesh.c and with nobody else. */
+/* What the mesh readers share with read.c, which chooses among them, and with nobody else. */
 #ifndef RT_MESH_BUILD_H
 #define RT_MESH_BUILD_H
 

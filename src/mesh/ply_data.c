@@ -1,7 +1,8 @@
+#include "mesh/ply_data.h"
+
 #include <math.h>
 
 #include "common/number.h"
-#include "mesh/ply.h"
 
 /* Reads the rows of one file after another element. Nothing is made room for by a declared count:
  * arrays grow with what has been read. */
@@ -48,6 +49,15 @@ static const char *take(rows *r, const rt_ply_property *property, size_t size)
     }
     FAIL_AT(r, at, "the file ends in " NAMED, NAMES(r, property));
     return NULL;
+}
+
+/* Bytes of a value in a binary file. */
+static size_t size_of(enum rt_ply_type type)
+{
+    static const size_t sizes[] = {
+        [RT_PLY_INT8] = 1,  [RT_PLY_UINT8] = 1,  [RT_PLY_INT16] = 2,   [RT_PLY_UINT16] = 2,
+        [RT_PLY_INT32] = 4, [RT_PLY_UINT32] = 4, [RT_PLY_FLOAT32] = 4, [RT_PLY_FLOAT64] = 8};
+    return sizes[type];
 }
 
 /* Where the next value begins, for messages. */
@@ -97,7 +107,7 @@ static bool read_float(rows *r, const rt_ply_property *property, float *value)
                rt_text_fail_found(r->text, token, NAMED " takes a finite number",
                                   NAMES(r, property));
     }
-    const size_t size = rt_ply_size(property->type);
+    const size_t size = size_of(property->type);
     const char *bytes = take(r, property, size);
     if (!bytes)
         return false;
@@ -121,7 +131,7 @@ static bool read_integer(rows *r, const rt_ply_property *property, enum rt_ply_t
                rt_text_fail_found(r->text, token, NAMED " takes a whole number",
                                   NAMES(r, property));
     }
-    const size_t size = rt_ply_size(type);
+    const size_t size = size_of(type);
     const char *bytes = take(r, property, size);
     if (!bytes)
         return false;
@@ -136,7 +146,7 @@ static bool read_count(rows *r, const rt_ply_property *property, int64_t *count)
     if (!read_integer(r, property, property->count_type, count))
         return false;
     const size_t left = (size_t)(r->text->end - r->text->cursor);
-    const size_t size = is_text(r) ? 2 : rt_ply_size(property->type); /* a blank and a digit */
+    const size_t size = is_text(r) ? 2 : size_of(property->type); /* a blank and a digit */
     if (*count >= 0 && (uint64_t)*count <= left / size)
         return true;
     return FAIL_AT(r, at,
@@ -149,7 +159,7 @@ static bool read_count(rows *r, const rt_ply_property *property, int64_t *count)
 static bool skip_values(rows *r, const rt_ply_property *property, int64_t count)
 {
     if (!is_text(r))
-        return take(r, property, (size_t)count * rt_ply_size(property->type)) != NULL;
+        return take(r, property, (size_t)count * size_of(property->type)) != NULL;
     for (int64_t i = 0; i < count; ++i) {
         const rt_token token = rt_text_word(r->text);
         if (token.length == 0)
@@ -272,8 +282,7 @@ static bool check_room(rows *r)
     size_t size = 0;
     for (size_t i = 0; i < element->property_count; ++i) {
         const rt_ply_property *property = &r->header->properties[element->first + i];
-        size +=
-            is_text(r) ? 2 : rt_ply_size(property->is_list ? property->count_type : property->type);
+        size += is_text(r) ? 2 : size_of(property->is_list ? property->count_type : property->type);
     }
     /* The last value of a text needs nothing behind it. */
     const size_t left = (size_t)(r->text->end - r->text->cursor) + (is_text(r) ? 1 : 0);

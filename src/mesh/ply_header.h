@@ -1,8 +1,12 @@
-/* The two halves of the PLY reader: ply.c reads the header, ply_data.c the rest. */
-#ifndef RT_MESH_PLY_H
-#define RT_MESH_PLY_H
+/* The header of a PLY file: what its data consist of. */
+#ifndef RT_MESH_PLY_HEADER_H
+#define RT_MESH_PLY_HEADER_H
 
-#include "mesh/build.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "mesh/text.h"
 
 enum rt_ply_format { RT_PLY_ASCII, RT_PLY_LITTLE, RT_PLY_BIG };
 
@@ -56,11 +60,9 @@ typedef struct rt_ply_header {
     bool needs_rounds; /* faces come before the vertices that they are made of */
 } rt_ply_header;
 
-/* Bytes of a value in a binary file. */
-size_t rt_ply_size(enum rt_ply_type type);
-
-/* Reads what follows the header, where the text's cursor stands. */
-bool rt_ply_read_data(rt_mesh *mesh, const rt_mesh_source *source, const rt_ply_header *header,
-                      rt_text *text);
+/* Reads an empty header, whose names then point into the text; the cursor is left at the first byte
+ * of the data. After an error too, the caller clears it. */
+bool rt_ply_read_header(rt_ply_header *header, rt_text *text);
+void rt_ply_clear_header(rt_ply_header *header);
 
 #endif
