@@ -11,7 +11,7 @@
 #include "common/vec3.h"
 #include "reference/scalar.h"
 #include "study/closed_mesh.h"
-#include "study/state.h"
+#include "study/parts.h"
 
 #define EDGE_RAYS 200000
 #define STARTS_TRIED 512

@@ -1,4 +1,4 @@
-/* What a study measures: which levels, at how many samples a pixel, how often. */
+/* What a study measures: which levels, at how many samples a pixel, how often; and how. */
 #ifndef RT_STUDY_PLAN_H
 #define RT_STUDY_PLAN_H
 
@@ -6,6 +6,8 @@
 #include <stddef.h>
 
 #include "common/accuracy.h"
+#include "opencl/device.h"
+#include "scene/effects.h"
 
 #define RT_STUDY_SAMPLES_LISTED 16
 #define RT_STUDY_SAMPLES_MAX 4096 /* what a scene can ask for */
@@ -26,5 +28,13 @@ rt_study_plan rt_study_plan_default(void);
  * empty, too long, or has an item that is not a level or a number from 1 to 4096. */
 bool rt_study_plan_read_levels(rt_study_plan *plan, const char *text);
 bool rt_study_plan_read_samples(rt_study_plan *plan, const char *text);
+
+/* How the studied pictures are rendered. */
+typedef struct rt_study_how {
+    const rt_device *device;
+    bool has_tree;
+    int lanes, tile; /* as in rt_render_options */
+    enum rt_effects_mode effects;
+} rt_study_how;
 
 #endif

@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "study/study.h"
+#include "study/result.h"
 
 /* Writes a gnuplot script that draws the study to the files `svg` and `png`. */
 void rt_study_plot_script(const rt_study *study, const char *svg, const char *png, FILE *out);

@@ -6,7 +6,7 @@
 #include "common/parallel.h"
 #include "common/vec3.h"
 #include "reference/scalar.h"
-#include "study/state.h"
+#include "study/parts.h"
 
 /* More say no more. */
 #define RAYS_MOST ((size_t)1 << 20)

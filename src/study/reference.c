@@ -3,7 +3,7 @@
  * accurate level takes its place, and its own rays are held against the scalar path. */
 #include "common/clock.h"
 #include "reference/scalar.h"
-#include "study/state.h"
+#include "study/parts.h"
 
 /* For all reference pictures together. */
 #define SCALAR_SECONDS_MOST 60.0

@@ -4,7 +4,8 @@
 #define RT_STUDY_REPORT_H
 
 #include "common/file.h"
-#include "study/study.h"
+#include "common/watch.h"
+#include "study/result.h"
 
 typedef struct rt_study_files {
     rt_output json, csv, md, svg, png;

@@ -70,9 +70,7 @@ static void say_how_much(const rt_study *study, size_t level_index, FILE *out)
     size_t i = study->plan.sample_count - 1;
     while (!rt_study_can_be_seen(study, i, level_index))
         --i;
-    size_t base = 0;
-    while (study->levels[base].level != study->base)
-        ++base;
+    const size_t base = rt_study_base_index(study);
     const rt_study_cell *cell = rt_study_cell_at(study, i, level_index);
     fprintf(
         out,

@@ -4,7 +4,10 @@
 
 #include <stdio.h>
 
-#include "study/study.h"
+#include "study/result.h"
+
+/* Fills in what follows from the measurements: which cells are dominated. */
+void rt_study_conclude(rt_study *study);
 
 /* Whether the level changes something that one can see at that count: it changes pixels by more
  * than one step from the base level, and more than one for every hundred that too few samples make
