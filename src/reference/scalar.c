@@ -4,6 +4,7 @@
 
 #include "common/parallel.h"
 #include "reference/effects.h"
+#include "scene/camera.h"
 
 /* The camera at this precision. */
 typedef struct eye {

@@ -10,6 +10,7 @@
 #include "common/accuracy.h"
 #include "common/status.h"
 #include "kernels/types.h"
+#include "scene/triangle.h"
 
 #define RT_IMAGE_SIDE_MAX 65535
 /* 16384 x 16384: pixel counts and byte counts of a picture stay within 32 bits unsigned. */
@@ -25,10 +26,6 @@
 typedef struct rt_sphere {
     float cx, cy, cz, radius;
 } rt_sphere;
-
-typedef struct rt_triangle {
-    float ax, ay, az, bx, by, bz, cx, cy, cz;
-} rt_triangle;
 
 typedef struct rt_vec3 {
     float x, y, z;
@@ -133,35 +130,6 @@ void rt_scene_choose_unit(rt_scene *scene);
 /* A material for the given coefficients (ka, kd, ks: r g b each). */
 rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
                              float shininess);
-
-/* The camera as vectors, in double: the direction of pixel (x, y) is
- * right * (2x + 1 - width) + up * (height - 1 - 2y) + forward, not unit. */
-typedef struct rt_view {
-    double origin[3], right[3], up[3], forward[3];
-    double lens_right[3], lens_up[3]; /* the lens's radii, to the right and upward; 0 for none */
-    double focus;                     /* distance along `forward` of what is sharp */
-} rt_view;
-
-/* Where `up` is parallel to the view, the axis least along the view stands in for it. */
-rt_view rt_scene_view(const rt_scene *scene);
-
-/* The background's colours and the unit vector along which they change. */
-rt_gradient rt_scene_gradient(const rt_scene *scene);
-
-/* The view rounded to what the kernels and the float reference take. */
-rt_frame rt_scene_frame(const rt_scene *scene);
-/* The same in double, for the kernels that compute in it. */
-rt_frame_double rt_scene_frame_double(const rt_scene *scene);
-
-/* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
- * has no area. */
-bool rt_triangle_is_degenerate(const rt_triangle *triangle);
-
-/* Makes a triangle as a file gives it fit for the scene. One without area becomes a single point,
- * so that it keeps its index and its determinant is 0 for every ray. `normals`, NULL or nine
- * floats, are multiplied by a common power of two, which is exact and keeps their weights, so that
- * sums of them neither overflow nor vanish. Returns whether the triangle has area. */
-bool rt_triangle_settle(rt_triangle *triangle, float *normals);
 
 /* +1 or -1: the only sign of the Moller-Trumbore determinant that is a hit; 0: both are. */
 int rt_scene_cull_sign(const rt_scene *scene);

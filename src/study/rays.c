@@ -6,6 +6,7 @@
 #include "common/parallel.h"
 #include "common/vec3.h"
 #include "reference/scalar.h"
+#include "scene/camera.h"
 #include "study/parts.h"
 
 /* More say no more. */

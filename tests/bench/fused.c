@@ -6,6 +6,7 @@
 #include "opencl/kernel_text.h"
 #include "render/renderer.h"
 #include "render/tiles.h"
+#include "scene/camera.h"
 #include "scene/effects.h"
 #include "render/variant.h"
 

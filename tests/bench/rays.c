@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "bench/meshes.h"
+#include "scene/camera.h"
 
 /* Far above the rounding of a hit point near 1 (1e-7), so that no tracer's answer depends on it. */
 #define BENCH_OFFSET 1e-4

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/camera.h"
 #include "scene_text/reader.h"
 
 #define TOLD HARD_REPORT

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/camera.h"
+
 #define TOLD HARD_REPORT
 
 /* ---- How far has light gone? ---- */

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/camera.h"
+
 #define TOLD HARD_REPORT
 
 static void draw_text(const hard_way *way, rt_image *image, const char *format, ...)
