@@ -53,7 +53,7 @@ bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *statu
     if (!grown)
         return rt_status_no_memory(status, "lights");
     scene->light_capacity = capacity;
-    scene->light_places[scene->light_count] = scene->here;
+    scene->light_places[scene->light_count] = (rt_place){NULL, 0};
     scene->lights[scene->light_count++] = *light;
     return true;
 }
@@ -67,7 +67,7 @@ bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_stat
     if (!grown)
         return rt_status_no_memory(status, "materials");
     scene->material_capacity = capacity;
-    scene->material_places[scene->material_count] = scene->here;
+    scene->material_places[scene->material_count] = (rt_place){NULL, 0};
     scene->materials[scene->material_count++] = *material;
     return true;
 }

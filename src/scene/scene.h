@@ -68,9 +68,9 @@ typedef struct rt_scene {
     float occlusion_distance;
     enum rt_cull cull;
     enum rt_winding winding;
+    /* The statements that call for effects; the first one for smooth normals. */
     rt_place cull_place, smooth_place, image_place, camera_place, background_place, fog_place;
     rt_place occlusion_place;
-    rt_place here; /* the statement being read: what is added gets this place */
 
     /* All arrays are owned. Primitive indices count spheres, then triangles. */
     rt_light *lights;
@@ -97,7 +97,7 @@ typedef struct rt_scene {
     size_t texture_count, texture_capacity;
     size_t texel_count, texel_capacity;
 
-    char **files; /* names of the files read, in order of opening */
+    char **files; /* names of the files read, in order of opening: what places point to */
     size_t file_count, file_capacity;
 } rt_scene;
 
@@ -107,7 +107,8 @@ void rt_scene_init(rt_scene *scene);
 void rt_scene_clear(rt_scene *scene);
 
 /* Each adds one element and returns false, with the status set, when memory or the 2^31 - 1
- * primitives that an index can name run out. `normals` is NULL or nine floats. */
+ * primitives that an index can name run out. `normals` is NULL or nine floats. Lights and materials
+ * have no place until one is set. */
 bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status);
 bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status);
 bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,

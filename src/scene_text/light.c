@@ -26,19 +26,25 @@ static rt_light read_light(const rt_line *l)
                       .samples = 1};
 }
 
+static bool add_light(rt_scene *scene, const rt_light *light, const rt_source *src)
+{
+    if (!rt_scene_add_light(scene, light, src->status))
+        return false;
+    scene->light_places[scene->light_count - 1] = rt_source_place(src);
+    return true;
+}
+
 bool rt_scene_apply_light_point(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     rt_light light = read_light(l);
     light.radius = rt_value_number(&l->values[RADIUS], 0.0f);
     if (light.radius > 0.0f)
         light.samples = rt_value_count(&l->values[SAMPLES], 16);
-    return rt_scene_add_light(p->scene, &light, p->status);
+    return add_light(p->scene, &light, src);
 }
 
 bool rt_scene_apply_light_directional(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     rt_light light = read_light(l);
     const double x = (double)light.x, y = (double)light.y, z = (double)light.z;
     const double inverse = -1.0 / hypot(hypot(x, y), z);
@@ -46,7 +52,7 @@ bool rt_scene_apply_light_directional(rt_parser *p, rt_source *src, const rt_lin
     light.y = (float)(y * inverse);
     light.z = (float)(z * inverse);
     light.w = 0.0f;
-    return rt_scene_add_light(p->scene, &light, p->status);
+    return add_light(p->scene, &light, src);
 }
 
 bool rt_scene_apply_shadows(rt_parser *p, rt_source *src, const rt_line *l)

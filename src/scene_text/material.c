@@ -150,6 +150,14 @@ static bool read_texture(rt_parser *p, rt_source *src, const rt_line *l, rt_mate
     return good;
 }
 
+bool rt_scene_place_material(rt_scene *scene, const rt_material *material, const rt_source *source)
+{
+    if (!rt_scene_add_material(scene, material, source->status))
+        return false;
+    scene->material_places[scene->material_count - 1] = rt_source_place(source);
+    return true;
+}
+
 bool rt_scene_apply_material(rt_parser *p, rt_source *src, const rt_line *l)
 {
     const rt_value *v = l->values;
@@ -159,7 +167,7 @@ bool rt_scene_apply_material(rt_parser *p, rt_source *src, const rt_line *l)
         define_material(p, src, &v[NAME].word, (int32_t)p->scene->material_count);
     const bool is_good = is_defined && read_mirror_and_glass(v, src, l, &material) &&
                          read_checker(v, src, l, &material) && read_texture(p, src, l, &material);
-    return rt_scene_add_material(p->scene, &material, p->status) && is_good;
+    return rt_scene_place_material(p->scene, &material, src) && is_good;
 }
 
 void rt_scene_define_broken(rt_parser *p, rt_source *src, const rt_word *name)
@@ -167,5 +175,5 @@ void rt_scene_define_broken(rt_parser *p, rt_source *src, const rt_word *name)
     const float zero[3] = {0.0f, 0.0f, 0.0f};
     const rt_material material = rt_material_make(zero, zero, zero, 1.0f);
     if (define_material(p, src, name, (int32_t)p->scene->material_count))
-        rt_scene_add_material(p->scene, &material, p->status);
+        rt_scene_place_material(p->scene, &material, src);
 }

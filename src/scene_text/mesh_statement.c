@@ -7,6 +7,7 @@
 #include "common/file.h"
 #include "mesh/mesh.h"
 #include "scene/texture.h"
+#include "scene_text/parser.h"
 
 /* Fields of `mesh` in the grammar's order; the material is the caller's. */
 enum field { PATH, MATERIAL, SCALE, ROTATE, TRANSLATE };
@@ -56,28 +57,28 @@ static bool has_uvs(const rt_mesh *mesh, size_t triangle)
 
 /* Adds a material of the file with its texture; one that cannot be taken is left out, as a material
  * library is. */
-static bool add_material(rt_scene *scene, const rt_mesh_material *m, rt_status *status)
+static bool add_material(rt_scene *scene, const rt_mesh_material *m, const rt_source *source)
 {
     rt_material material = m->material;
     char reason[RT_TEXTURE_REASON_SIZE];
     int32_t texture = -1;
     if (m->texture && !rt_texture_load(scene, m->texture, &texture, reason))
-        rt_status_warn(status,
+        rt_status_warn(source->status,
                        "%s:%d:1: warning: the texture '%.*s' of material '%.*s' is left out: %s",
-                       scene->here.file, scene->here.line, RT_PATH_SHOWN, m->texture, RT_PATH_SHOWN,
+                       source->name, source->line, RT_PATH_SHOWN, m->texture, RT_PATH_SHOWN,
                        m->name, reason);
     material.texture = texture;
-    return rt_scene_add_material(scene, &material, status);
+    return rt_scene_place_material(scene, &material, source);
 }
 
 /* Replaces each triangle's material by its index in the scene, and adds those of the file that a
  * triangle has; what no triangle calls for is not there. */
-static bool add_materials(rt_scene *scene, rt_mesh *mesh, rt_status *status)
+static bool add_materials(rt_scene *scene, rt_mesh *mesh, const rt_source *source)
 {
     const size_t count = mesh->material_count;
     int32_t *indices = malloc((count + 1) * sizeof *indices); /* 0 bytes may be NULL */
     if (!indices)
-        return rt_status_no_memory(status, "materials");
+        return rt_status_no_memory(source->status, "materials");
     for (size_t i = 0; i < count; ++i)
         indices[i] = -1;
     bool good = true;
@@ -85,7 +86,7 @@ static bool add_materials(rt_scene *scene, rt_mesh *mesh, rt_status *status)
         int32_t *index = &indices[mesh->materials[i]];
         if (*index < 0) {
             *index = (int32_t)scene->material_count;
-            good = add_material(scene, &mesh->material_list[mesh->materials[i]], status);
+            good = add_material(scene, &mesh->material_list[mesh->materials[i]], source);
         }
         mesh->materials[i] = *index;
     }
@@ -124,16 +125,16 @@ static bool add_triangles(rt_scene *scene, const rt_mesh *mesh, size_t *degenera
 
 /* Adds a mesh that stands in its place; the scene is as it was after an error. */
 static bool add_mesh(rt_scene *scene, rt_mesh *mesh, size_t *degenerate_count, bool has_own,
-                     rt_status *status)
+                     const rt_source *source)
 {
     const size_t material_count = scene->material_count, triangle_count = scene->triangle_count;
     const size_t normal_count = scene->normal_count, uv_count = scene->uv_count;
     size_t smooth_count = 0;
     for (size_t i = 0; i < mesh->triangle_count; ++i)
         smooth_count += is_smooth(mesh, i);
-    if (rt_scene_reserve_triangles(scene, mesh->triangle_count, smooth_count, status) &&
-        (!has_own || add_materials(scene, mesh, status)) &&
-        add_triangles(scene, mesh, degenerate_count, status))
+    if (rt_scene_reserve_triangles(scene, mesh->triangle_count, smooth_count, source->status) &&
+        (!has_own || add_materials(scene, mesh, source)) &&
+        add_triangles(scene, mesh, degenerate_count, source->status))
         return true;
     scene->material_count = material_count;
     scene->triangle_count = triangle_count;
@@ -174,7 +175,7 @@ static bool take_mesh(rt_scene *scene, rt_mesh *mesh, const char *path, rt_sourc
                           reason);
     if (!settle_materials(mesh, material, source, line, path))
         return false;
-    if (!add_mesh(scene, mesh, degenerate_count, material < 0, source->status))
+    if (!add_mesh(scene, mesh, degenerate_count, material < 0, source))
         return RT_FAIL_AT(source, at, "cannot take the mesh '%.*s'", RT_PATH_SHOWN, path);
     return true;
 }
@@ -190,7 +191,7 @@ bool rt_scene_mesh_add(rt_scene *scene, rt_source *source, const rt_line *line, 
     const size_t normal_count = scene->normal_count;
     const bool good = take_mesh(scene, &mesh, path, source, line, material, degenerate_count);
     if (scene->normal_count > normal_count && !scene->smooth_place.line)
-        scene->smooth_place = (rt_place){source->name, source->line};
+        scene->smooth_place = rt_source_place(source);
     rt_mesh_clear(&mesh);
     free(path);
     return good;

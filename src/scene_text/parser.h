@@ -26,6 +26,12 @@ typedef struct rt_parser {
     rt_place degenerate_place;
 } rt_parser;
 
+/* The statement being read. */
+static inline rt_place rt_source_place(const rt_source *source)
+{
+    return (rt_place){source->name, source->line};
+}
+
 static inline rt_vec3 rt_value_vector(const rt_value *v, rt_vec3 fallback)
 {
     return v->given ? (rt_vec3){v->number[0], v->number[1], v->number[2]} : fallback;
@@ -64,6 +70,9 @@ void rt_scene_settle_shadows(rt_parser *p);
 
 /* Makes a material known that cannot be read, so that its uses are not errors too. */
 void rt_scene_define_broken(rt_parser *p, rt_source *source, const rt_word *name);
+
+/* Adds a material that the statement being read calls for. */
+bool rt_scene_place_material(rt_scene *scene, const rt_material *material, const rt_source *source);
 
 /* The index of the material that a word names, or -1 after a message. */
 int32_t rt_scene_find_material(rt_parser *p, rt_source *source, const rt_word *word);

@@ -76,7 +76,7 @@ static bool check_order(rt_parser *p, rt_source *src, const rt_line *l)
         return RT_FAIL_AT(src, l->start, "'%s' is given already at %s:%d", l->statement->keyword,
                           seen->file, seen->line);
     if (!seen->line)
-        *seen = (rt_place){src->name, src->line};
+        *seen = rt_source_place(src);
     return true;
 }
 
@@ -92,7 +92,6 @@ static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
         if (!rt_line_is_keyword(keyword))
             return false;
     }
-    p->scene->here = (rt_place){src->name, src->line};
     if (!rt_line_begin(src, keyword, &l) || !check_order(p, src, &l))
         return false;
     if (!rt_line_read(src, &l)) {

@@ -9,7 +9,7 @@ bool rt_scene_apply_image(rt_parser *p, rt_source *src, const rt_line *l)
     scene->samples = rt_value_count(&l->values[2], scene->samples);
     if (l->values[3].given)
         scene->filter = l->values[3].choice == 0 ? RT_FILTER_BOX : RT_FILTER_TENT;
-    scene->image_place = scene->here;
+    scene->image_place = rt_source_place(src);
     const long long pixels = (long long)scene->width * scene->height;
     return pixels <= RT_IMAGE_PIXELS_MAX ||
            RT_FAIL_AT(src, l->start, "the picture has %lld pixels; %lld are the most", pixels,
@@ -25,7 +25,7 @@ bool rt_scene_apply_camera(rt_parser *p, rt_source *src, const rt_line *l)
     camera->vfov = rt_value_number(&l->values[3], camera->vfov);
     camera->aperture = rt_value_number(&l->values[4], camera->aperture);
     camera->focus = rt_value_number(&l->values[5], camera->focus);
-    p->scene->camera_place = p->scene->here;
+    p->scene->camera_place = rt_source_place(src);
     return camera->from.x != camera->at.x || camera->from.y != camera->at.y ||
            camera->from.z != camera->at.z ||
            RT_FAIL_AT(src, l->start, "%s",
@@ -34,12 +34,11 @@ bool rt_scene_apply_camera(rt_parser *p, rt_source *src, const rt_line *l)
 
 bool rt_scene_apply_background(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     rt_scene *scene = p->scene;
     scene->background = rt_value_vector(&l->values[0], scene->background);
     scene->background_top = rt_value_vector(&l->values[1], scene->background);
     scene->has_gradient = l->values[1].given;
-    scene->background_place = scene->here;
+    scene->background_place = rt_source_place(src);
     return true;
 }
 
@@ -52,19 +51,17 @@ bool rt_scene_apply_ambient(rt_parser *p, rt_source *src, const rt_line *l)
 
 bool rt_scene_apply_fog(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     p->scene->fog = rt_value_vector(&l->values[0], p->scene->fog);
     p->scene->fog_density = l->values[1].number[0];
-    p->scene->fog_place = p->scene->here;
+    p->scene->fog_place = rt_source_place(src);
     return true;
 }
 
 bool rt_scene_apply_occlusion(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     p->scene->occlusion_samples = rt_value_count(&l->values[0], 16);
     p->scene->occlusion_distance = l->values[1].number[0];
-    p->scene->occlusion_place = p->scene->here;
+    p->scene->occlusion_place = rt_source_place(src);
     return true;
 }
 
@@ -77,11 +74,10 @@ bool rt_scene_apply_depth(rt_parser *p, rt_source *src, const rt_line *l)
 
 bool rt_scene_apply_cull(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     p->scene->cull = l->values[0].choice == 0 ? RT_CULL_BACK : RT_CULL_FRONT;
     p->scene->winding =
         l->values[1].given && l->values[1].choice == 1 ? RT_WINDING_CW : RT_WINDING_CCW;
-    p->scene->cull_place = p->scene->here;
+    p->scene->cull_place = rt_source_place(src);
     return true;
 }
 

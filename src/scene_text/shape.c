@@ -11,10 +11,10 @@ bool rt_scene_apply_sphere(rt_parser *p, rt_source *src, const rt_line *l)
 }
 
 /* Counts triangles without area; the warning names the first statement that has one. */
-static void note_degenerate(rt_parser *p, size_t count)
+static void note_degenerate(rt_parser *p, const rt_source *src, size_t count)
 {
     if (count > 0 && p->degenerate_count == 0)
-        p->degenerate_place = p->scene->here;
+        p->degenerate_place = rt_source_place(src);
     p->degenerate_count += count;
 }
 
@@ -47,9 +47,9 @@ bool rt_scene_apply_triangle(rt_parser *p, rt_source *src, const rt_line *l)
         return false;
     rt_triangle t = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
     const bool has_area = rt_triangle_settle(&t, has_normals ? normals : NULL);
-    note_degenerate(p, has_area ? 0 : 1);
+    note_degenerate(p, src, has_area ? 0 : 1);
     if (has_normals && !p->scene->smooth_place.line)
-        p->scene->smooth_place = p->scene->here;
+        p->scene->smooth_place = rt_source_place(src);
     return rt_scene_add_triangle(p->scene, &t, has_normals ? normals : NULL, material, p->status) &&
            (!has_uvs || rt_scene_set_uvs(p->scene, uvs, p->status));
 }
@@ -62,6 +62,6 @@ bool rt_scene_apply_mesh(rt_parser *p, rt_source *src, const rt_line *l)
     if ((material->given && index < 0) ||
         !rt_scene_mesh_add(p->scene, src, l, index, &degenerate_count))
         return false;
-    note_degenerate(p, degenerate_count);
+    note_degenerate(p, src, degenerate_count);
     return true;
 }
