@@ -1,170 +1,233 @@
-# rt: a ray tracer in C11 and OpenCL C. README.md says what each target is for.
+# rt: a ray tracer in C11 and OpenCL C. `make help` lists what can be made, README.md says more.
+# Builds in the current folder: from another one, make -f PATH/Makefile.
+
+# Where the sources are, with a slash, or nothing where that is here.
+MAKEFILE := $(lastword $(MAKEFILE_LIST))
+SRC := $(filter-out ./,$(dir $(MAKEFILE)))
+
+# ---- What is yours to set: these, and CPPFLAGS LDFLAGS LDLIBS DESTDIR ----
+
+CFLAGS ?= -O2 -g
+# -Werror where changes are checked, as .ci/run does; not where others build with compilers to come.
+WERROR ?=
+# Holds everything that is made except ./rt; make asan keeps its own in there.
+BUILD ?= build
+PKG_CONFIG ?= pkg-config
+INSTALL ?= install
+# The name to install under: rt5-clients has /usr/bin/rt in Debian.
+PROGRAM ?= rt
 
 PREFIX ?= /usr/local
-DESTDIR ?=
-CC ?= cc
-CFLAGS ?= -O2 -g
-# Empty for compilers whose warnings nobody here has seen: make WERROR=
-WERROR ?= -Werror
-# build/ holds everything that is made except ./rt; make asan keeps its own.
-BUILD ?= build
+prefix = $(PREFIX)
+exec_prefix = $(prefix)
+bindir = $(exec_prefix)/bin
+datarootdir = $(prefix)/share
+datadir = $(datarootdir)
+mandir = $(datarootdir)/man
+docdir = $(datarootdir)/doc/$(PROGRAM)
+bashcompletiondir = $(datadir)/bash-completion/completions
+zshcompletiondir = $(datadir)/zsh/site-functions
 
 # make V=1 shows whole commands.
 Q := $(if $(V),,@)
 say = @$(if $(V),:,printf '  %-6s %s\n' $(1)) $@
 
-PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
-            libdeflate-dev libcmocka-dev libgmp-dev pkg-config
-PACKAGES_LINT := clang-format clang-tidy cppcheck
-PACKAGES_CLANG := clang
-PACKAGES_BENCH := libembree-dev tachyon povray
+# ---- Flags ----
+
 LIBRARIES := OpenCL jansson libdeflate
+# Asked only when something is compiled, since `make demo` installs pkg-config first.
+PKG_CFLAGS = $(shell $(PKG_CONFIG) --cflags $(LIBRARIES) stb)
+PKG_LIBS = $(shell $(PKG_CONFIG) --libs $(LIBRARIES))
+
+WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
+# After CFLAGS, since these are what the bits of a picture rest on: a multiply-add is fused where the
+# code says fma, and nowhere else, and sums are taken in the order that is written.
+EXACT := -fno-fast-math -ffp-contract=off
+ALL_CPPFLAGS = -I$(SRC)src -I$(SRC). $(if $(SRC),-fmacro-prefix-map=$(SRC)=) $(CPPFLAGS)
+ALL_CFLAGS = -std=c11 -pthread $(WARNINGS) $(CFLAGS) $(EXACT) $(MORE_CFLAGS)
+COMPILE = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
+LINK = $(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^)
+LIBS = $(PKG_LIBS) $(LDLIBS) -lm
+TEST_CPPFLAGS = $(shell $(PKG_CONFIG) --cflags $(LIBRARIES) stb cmocka) -I$(SRC)tests
+FLAGS := $(BUILD)/flags
+
+# ---- Files ----
+
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix kernels/,options.h types.h \
+KERNELS := $(addprefix $(SRC)kernels/,options.h types.h \
            $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
            $(addprefix primitives/,intersect.cl sphere.cl watertight.cl) \
            $(addprefix traversal/,packet.cl traverse.cl) \
            $(addprefix shading/,surface.cl pattern.cl) \
            $(addprefix stages/,camera.cl trace.cl probe.cl path.cl shade.cl queue.cl resolve.cl))
 
-WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
-# No contraction: a multiply-add is fused where the code says fma, and nowhere else.
-override CFLAGS += -std=c11 -pthread -Isrc -I. -ffp-contract=off $(WARNINGS) -MMD -MP
-# Asked only when something is compiled, since `make demo` installs pkg-config first.
-PKG_CFLAGS = $(shell pkg-config --cflags $(LIBRARIES) stb cmocka)
-PKG_LIBS = $(shell pkg-config --libs $(LIBRARIES))
-
-SOURCES := $(wildcard src/*.c src/*/*.c)
+SOURCES := $(wildcard $(SRC)src/*.c $(SRC)src/*/*.c)
+HEADERS := $(wildcard $(SRC)src/*/*.h)
 # The scalar reference is compiled twice, for float and for double; stb's code is compiled as it is.
-OBJECTS := $(patsubst src/%.c,$(BUILD)/%.o,$(SOURCES)) $(BUILD)/opencl/kernel_text.o \
-           $(patsubst src/%.c,$(BUILD)/%_double.o,$(wildcard src/reference/*.c))
+OBJECTS := $(SOURCES:$(SRC)src/%.c=$(BUILD)/%.o) $(BUILD)/opencl/kernel_text.o \
+           $(patsubst $(SRC)src/%.c,$(BUILD)/%_double.o,$(wildcard $(SRC)src/reference/*.c))
 LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
-TESTS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/*/test_*.c))
-TEST_HELPERS := $(patsubst %.c,$(BUILD)/%.o,tests/support/support.c \
-                $(filter-out tests/hard/test_%,$(wildcard tests/hard/*.c)))
+TESTS := $(patsubst $(SRC)%.c,$(BUILD)/%,$(wildcard $(SRC)tests/*/test_*.c))
+TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(SRC)tests/support/support.c \
+                $(filter-out $(SRC)tests/hard/test_%,$(wildcard $(SRC)tests/hard/*.c)))
 
-.PHONY: all demo test check lint asan check-kernels deps deps-lint deps-clang install uninstall clean
+# ---- The program ----
+
 .DELETE_ON_ERROR:
 .SECONDARY:
 
-all: rt
+.PHONY: all
+all: rt ## builds ./rt
 
 rt: $(BUILD)/rt
 	@cp $< $@
 
-$(BUILD)/rt: $(OBJECTS)
+$(BUILD)/rt: $(OBJECTS) $(FLAGS)
 	$(call say,LINK)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
+	$(Q)$(LINK) $(LIBS)
 
-$(BUILD)/%.o: src/%.c
+# What everything is made of is made anew when the flags change: this file does only then. Except by
+# make install, which takes what is built.
+$(FLAGS): export text = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) $(LDFLAGS) $(LDLIBS)
+$(FLAGS): $(if $(filter install install-strip,$(MAKECMDGOALS)),,FORCE)
+	@mkdir -p $(@D)
+	@echo "$$text" | cmp -s - $@ || echo "$$text" >$@
+.PHONY: FORCE
+
+$(BUILD)/%.o: $(SRC)src/%.c $(FLAGS)
 	$(call say,CC)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -c -o $@ $<
+	$(Q)$(COMPILE) $(PKG_CFLAGS)
 
 # Its JPEG code shifts into the sign bit; that is the library's, and harmless. Its loops over a
 # picture's bytes are vectorised at -O3 only.
-$(BUILD)/image/stb_write.o $(BUILD)/image/stb_read.o: override CFLAGS += -O3 -fno-sanitize=undefined
+$(BUILD)/image/stb_write.o $(BUILD)/image/stb_read.o: private MORE_CFLAGS := -O3 -fno-sanitize=undefined
 
-$(BUILD)/%_double.o: src/%.c
+$(BUILD)/%_double.o: $(SRC)src/%.c $(FLAGS)
 	$(call say,CC)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) -DRT_SCALAR_DOUBLE -c -o $@ $<
+	$(Q)$(COMPILE) -DRT_SCALAR_DOUBLE
 
-$(BUILD)/opencl/kernel_text.o: $(BUILD)/opencl/kernel_text.c
+$(BUILD)/opencl/kernel_text.o: $(BUILD)/opencl/kernel_text.c $(FLAGS)
 	$(call say,CC)
-	$(Q)$(CC) $(CFLAGS) -c -o $@ $<
+	$(Q)$(COMPILE)
 
-$(BUILD)/opencl/kernel_text.c: src/opencl/kernel_text.awk $(KERNELS)
+$(BUILD)/opencl/kernel_text.c: $(SRC)src/opencl/kernel_text.awk $(KERNELS)
 	$(call say,GEN)
 	@mkdir -p $(@D)
 	$(Q)awk -f $< $(KERNELS) >$@
 
+# ---- Tests ----
+
+# Tests name scenes/ and kernels/, so they run where these are; files of ours are then far from there.
+in_source = cd $(or $(SRC),.) &&
+from_source = $(if $(SRC),$(abspath $(1)),$(1))
+remake = @$(MAKE) --no-print-directory -f $(MAKEFILE)
+
 # Two commands on a fresh machine: both install what is missing and say nothing when nothing is.
-demo: deps
-	@$(MAKE) --no-print-directory rt
-	./rt scenes/icecream.txt icecream.png
+.PHONY: demo test check
+demo: deps ## installs what is missing, builds, renders icecream.png
+	$(remake) rt
+	./rt $(SRC)scenes/icecream.txt icecream.png
 
-test: deps
-	@$(MAKE) --no-print-directory check
+test: deps ## installs what is missing, builds, runs every test
+	$(remake) check
 
-check: rt $(TESTS)
-	@RT=./rt tests/run $(TESTS)
+check: rt $(TESTS) ## builds and runs every test, and looks for no packages
+	@$(in_source) RT=$(call from_source,./rt) tests/run $(call from_source,$(TESTS))
 
-# The hard cases with ten times the rays: minutes.
+HARD_TESTS := $(filter $(BUILD)/tests/hard/%,$(TESTS))
 .PHONY: test-hard check-hard
-test-hard: deps
-	@$(MAKE) --no-print-directory check-hard
+test-hard: deps ## runs the hard cases with ten times the rays: minutes
+	$(remake) check-hard
 
-check-hard: rt $(filter $(BUILD)/tests/hard/%,$(TESTS))
-	@RT=./rt RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} RT_HARD_TABLE=$(BUILD)/hard.md \
-	    tests/run $(filter $(BUILD)/tests/hard/%,$(TESTS))
+check-hard: rt $(HARD_TESTS)
+	@$(in_source) RT=$(call from_source,./rt) RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
+	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(HARD_TESTS))
 
-$(BUILD)/tests/%.o: tests/%.c
+$(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
 	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) $(TEST_CFLAGS) -Itests -c -o $@ $<
+	$(Q)$(COMPILE) $(TEST_CPPFLAGS)
 
-# The loops around Embree get what its own tutorials are compiled with.
-$(BUILD)/tests/bench/embree.o: TEST_CFLAGS := -O3 -march=native
-
-$(TESTS): $(BUILD)/%: %.c $(TEST_HELPERS) $(LIBRARY)
-	$(call say,CC)
-	@mkdir -p $(@D)
-	$(Q)$(CC) $(CFLAGS) $(PKG_CFLAGS) -Itests $(LDFLAGS) -o $@ $(filter %.c %.o,$^) $(PKG_LIBS) -lcmocka -lgmp -lm
+$(TESTS): %: %.o $(TEST_HELPERS) $(LIBRARY) $(FLAGS)
+	$(call say,LINK)
+	$(Q)$(LINK) -lcmocka -lgmp $(LIBS)
 
 # On PoCL alone, whose leaks are known: what other drivers keep is not ours either.
 # LLVM, in the thread that opens devices, sets a signal stack of its own, which the sanitizer would
 # take for its own.
-asan: deps
+.PHONY: asan check-asan
+asan: deps ## runs every test under the address and undefined-behaviour sanitizers
 	@OCL_ICD_VENDORS=$${OCL_ICD_VENDORS:-$$(ls /etc/OpenCL/vendors/pocl.icd 2>/dev/null)} \
-	ASAN_OPTIONS=detect_leaks=1:use_sigaltstack=0 LSAN_OPTIONS=suppressions=$(CURDIR)/tests/lsan.supp:print_suppressions=0 \
-	$(MAKE) --no-print-directory BUILD=build/asan \
+	ASAN_OPTIONS=detect_leaks=1:use_sigaltstack=0 \
+	LSAN_OPTIONS=suppressions=$$(realpath $(SRC)tests/lsan.supp):print_suppressions=0 \
+	$(MAKE) --no-print-directory -f $(MAKEFILE) BUILD=$(BUILD)/asan \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=undefined" \
 	    check-asan
 
-.PHONY: check-asan
 check-asan: $(BUILD)/rt $(TESTS)
-	@RT=$(BUILD)/rt tests/run $(TESTS)
+	@$(in_source) RT=$(call from_source,$(BUILD)/rt) tests/run $(call from_source,$(TESTS))
 
-lint: deps deps-lint
-	tests/arrows $(SOURCES) $(wildcard src/*/*.h)
-	clang-format --dry-run -Werror $(SOURCES) $(wildcard src/*/*.h tests/*/*.[ch]) $(KERNELS)
+# ---- Checks ----
+
+# clang-tidy is by far the slowest, hence last and several at a time; with -quiet it still counts
+# on standard error what it has suppressed.
+.PHONY: lint check-kernels
+lint: deps deps-lint ## the folders' order, clang-format, cppcheck and clang-tidy
+	$(SRC)tests/arrows $(SOURCES) $(HEADERS)
+	clang-format --dry-run -Werror $(SOURCES) $(HEADERS) $(wildcard $(SRC)tests/*/*.[ch]) $(KERNELS)
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
-	    --suppress=missingIncludeSystem --error-exitcode=1 -Isrc -I. -Itests src tests/bench
-	clang-tidy --quiet $(SOURCES) -- -std=c11 -Isrc -I. $(PKG_CFLAGS) 2>/dev/null
+	    --suppress=missingIncludeSystem --error-exitcode=1 -I$(SRC)src -I$(SRC). -I$(SRC)tests \
+	    $(SRC)src $(SRC)tests/bench
+	printf '%s\n' $(SOURCES) | xargs -n 1 -P $$(nproc) sh -c \
+	    'clang-tidy --quiet "$$0" -- -std=c11 -I$(SRC)src -I$(SRC). $(PKG_CFLAGS) 2>/dev/null'
 
-check-kernels: deps-clang
-	@tests/check_kernels $(KERNELS)
+check-kernels: deps-clang ## compiles every variant of the kernels with clang, warnings as errors
+	@$(SRC)tests/check_kernels $(KERNELS)
 
-# Side-by-side measurements; make bench BENCH="--level 2 --size 64 --spheres 100" tries them out.
+# ---- Measurements ----
+
+# Side by side with others; make bench BENCH="--level 2 --size 64 --spheres 100" tries them out.
 BENCH ?=
-BENCH_JSON := $(BUILD)/bench.json
 BENCH_NAMES := bench_embree bench_levels bench_effects bench_scaling bench_process bench_report nothing
 BENCH_PROGRAMS := $(addprefix $(BUILD)/tests/bench/,$(BENCH_NAMES))
-BENCH_HELPERS := $(patsubst %.c,$(BUILD)/%.o,$(filter-out \
-                 $(BENCH_NAMES:%=tests/bench/%.c),$(wildcard tests/bench/*.c)))
+BENCH_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(filter-out \
+                 $(BENCH_NAMES:%=$(SRC)tests/bench/%.c),$(wildcard $(SRC)tests/bench/*.c)))
 
-.PHONY: bench bench-run bench-deps
-bench: deps bench-deps
-	@$(MAKE) --no-print-directory bench-run
+.PHONY: bench bench-run
+bench: deps deps-bench ## measures beside Embree, Tachyon and POV-Ray: hours
+	$(remake) bench-run
 
 # A measurement that fails does not hide the others.
 bench-run: $(BUILD)/rt $(BENCH_PROGRAMS)
-	@rm -f $(BENCH_JSON); failed=; for p in bench_embree bench_levels bench_effects bench_scaling bench_process; do \
-	    $(BUILD)/tests/bench/$$p --rt $(BUILD)/rt --json $(BENCH_JSON) $(BENCH) || failed="$$failed $$p"; \
+	@$(in_source) build=$(call from_source,$(BUILD)); json=$$build/bench.json; rm -f $$json; failed=; \
+	for p in bench_embree bench_levels bench_effects bench_scaling bench_process; do \
+	    $$build/tests/bench/$$p --rt $$build/rt --json $$json $(BENCH) || failed="$$failed $$p"; \
 	done; \
-	$(BUILD)/tests/bench/bench_report --json $(BENCH_JSON) $(BENCH) >$(BUILD)/bench.md && \
-	cat $(BUILD)/bench.md; \
+	$$build/tests/bench/bench_report --json $$json $(BENCH) >$$build/bench.md && \
+	cat $$build/bench.md; \
 	test -z "$$failed" || { echo "failed:$$failed" >&2; exit 1; }
 
-$(filter-out %/nothing,$(BENCH_PROGRAMS)): %: %.o $(BENCH_HELPERS) $(LIBRARY)
+# The loops around Embree get what its own tutorials are compiled with.
+$(BUILD)/tests/bench/embree.o: private MORE_CFLAGS := -O3 -march=native
+
+$(filter-out %/nothing,$(BENCH_PROGRAMS)): %: %.o $(BENCH_HELPERS) $(LIBRARY) $(FLAGS)
 	$(call say,LINK)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lembree3 -lm
+	$(Q)$(LINK) -lembree3 $(LIBS)
 
 # Starts and does nothing: it must not load more than it needs.
-$(BUILD)/tests/bench/nothing: $(BUILD)/tests/bench/nothing.o $(LIBRARY)
+$(BUILD)/tests/bench/nothing: $(BUILD)/tests/bench/nothing.o $(LIBRARY) $(FLAGS)
 	$(call say,LINK)
-	$(Q)$(CC) $(CFLAGS) $(LDFLAGS) -o $@ $^ $(PKG_LIBS) -lm
+	$(Q)$(LINK) $(LIBS)
+
+# ---- Debian's packages ----
+
+PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
+            libdeflate-dev libcmocka-dev libgmp-dev pkg-config
+PACKAGES_LINT := clang-format clang-tidy cppcheck
+PACKAGES_CLANG := clang
+PACKAGES_BENCH := libembree-dev tachyon povray
 
 # Installs the packages that are named and not there; silent when all are.
 define install_missing
@@ -181,7 +244,8 @@ define install_missing
 	fi
 endef
 
-deps:
+.PHONY: deps deps-lint deps-clang deps-bench
+deps: ## installs what building and testing need
 	$(call install_missing,$(PACKAGES))
 
 deps-lint:
@@ -190,18 +254,52 @@ deps-lint:
 deps-clang:
 	$(call install_missing,$(PACKAGES_CLANG))
 
-bench-deps:
+deps-bench:
 	$(call install_missing,$(PACKAGES_BENCH))
 
-install: rt
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/man/man1
-	install -m 755 rt $(DESTDIR)$(PREFIX)/bin/rt
-	install -m 644 src/cli/rt.1 $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
+# ---- Installation ----
 
-uninstall:
-	rm -f $(DESTDIR)$(PREFIX)/bin/rt $(DESTDIR)$(PREFIX)/share/man/man1/rt.1
+# Stands in options.h alone.
+VERSION = $(shell sed -n 's/^.define RT_VERSION "\(.*\)"/\1/p' $(SRC)src/cli/options.h)
+DOCS := $(wildcard $(addprefix $(SRC),README.md CHANGELOG.md LICENSE))
+SCENES := $(wildcard $(SRC)scenes/*.*)
+# Says the program's name, but for the cache's, and its version; a man page's hyphen is \-.
+name = sed -e '/^\.TH/s/RT/\U$(1)/' -e '/\.cache/!s/\<rt\>/$(1)/g' -e 's/@VERSION@/$(VERSION)/'
+INSTALLED = $(bindir)/$(PROGRAM) $(mandir)/man1/$(PROGRAM).1 \
+            $(bashcompletiondir)/$(PROGRAM) $(zshcompletiondir)/_$(PROGRAM) \
+            $(patsubst $(SRC)%,$(docdir)/%,$(DOCS)) \
+            $(patsubst $(SRC)%,$(docdir)/%,$(SCENES))
 
-clean:
-	rm -rf build rt icecream.png
+.PHONY: install install-strip uninstall
+install: rt ## installs to PREFIX=/usr/local, below DESTDIR= if given, as PROGRAM=rt
+	$(INSTALL) -d $(sort $(dir $(INSTALLED:%=$(DESTDIR)%)))
+	$(INSTALL) $(STRIP) -m 755 rt $(DESTDIR)$(bindir)/$(PROGRAM)
+	$(INSTALL) -m 644 $(DOCS) $(DESTDIR)$(docdir)
+	$(INSTALL) -m 644 $(SCENES) $(DESTDIR)$(docdir)/scenes
+	$(call name,$(subst -,\\-,$(PROGRAM))) $(SRC)src/cli/rt.1 >$(DESTDIR)$(mandir)/man1/$(PROGRAM).1
+	$(call name,$(PROGRAM)) $(SRC)src/cli/rt.bash >$(DESTDIR)$(bashcompletiondir)/$(PROGRAM)
+	$(call name,$(PROGRAM)) $(SRC)src/cli/rt.zsh >$(DESTDIR)$(zshcompletiondir)/_$(PROGRAM)
+	chmod 644 $(addprefix $(DESTDIR),$(mandir)/man1/$(PROGRAM).1 $(bashcompletiondir)/$(PROGRAM) \
+	    $(zshcompletiondir)/_$(PROGRAM))
+
+install-strip: STRIP := -s
+install-strip: install
+
+uninstall: ## removes what make install put there
+	rm -f $(INSTALLED:%=$(DESTDIR)%)
+	-@rmdir $(DESTDIR)$(docdir)/scenes $(DESTDIR)$(docdir) 2>/dev/null
+
+# ---- The rest ----
+
+.PHONY: dist clean help
+dist: ## packs what is committed as rt-VERSION.tar.gz
+	git -C $(or $(SRC),.) archive --prefix=rt-$(VERSION)/ --format=tar.gz HEAD >rt-$(VERSION).tar.gz
+
+clean: ## removes what was made
+	rm -rf $(BUILD) rt icecream.png rt-$(VERSION).tar.gz
+
+help: ## prints this
+	@sed -n 's/^\([a-z-]*\):.*## /\1 /p' $(MAKEFILE) | \
+	    while read -r target text; do printf '  %-14s %s\n' "$$target" "$$text"; done
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/tests/*/*.d)

@@ -11,7 +11,7 @@
 #include "scene/effects.h"
 #include "study/plan.h"
 
-#define RT_VERSION "0.1.0"
+#define RT_VERSION "0.2.0"
 
 enum rt_action {
     RT_ACTION_RENDER,

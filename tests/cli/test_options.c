@@ -209,37 +209,82 @@ static char *read_options_section(void)
     return section;
 }
 
-/* Every option that --help lists is an entry of the man page, and there are no others. */
-static void the_man_page_has_the_options(void **state)
+static char *read_help(void)
 {
-    (void)state;
     char *help = NULL;
     size_t size = 0;
     FILE *stream = open_memstream(&help, &size);
     assert_non_null(stream);
     rt_options_help(stream);
     fclose(stream);
-    char *man = read_options_section();
-    int in_help = 0, in_man = 0;
-    for (const char *line = help; line; line = strchr(line, '\n')) {
-        char name[64], entry[80];
-        line += *line == '\n';
-        /* "  -h, --help " or "      --hits=FILE ": two or six columns in */
-        const bool has_letter = strncmp(line, "  -", 3) == 0;
-        if (!has_letter && strncmp(line, "      --", 8) != 0)
-            continue;
-        assert_int_equal(sscanf(line + 6, "--%63[a-z-]", name), 1);
-        ++in_help;
-        snprintf(entry, sizeof entry, "--%s", name);
-        if (!strstr(man, entry))
-            fail_msg("rt.1 lacks %s", entry);
+    return help;
+}
+
+/* Goes on in *text to behind the next long option, such as --size; false where there is none. */
+static bool next_option(const char **text, char name[64])
+{
+    for (const char *p = *text; (p = strstr(p, "--"));) {
+        const size_t length = strspn(p, "-abcdefghijklmnopqrstuvwxyz");
+        snprintf(name, 64, "%.*s", (int)length, p);
+        p += length;
+        *text = p;
+        if (length > 2)
+            return true;
     }
+    return false;
+}
+
+/* Fails where `text` names a long option that `whole` does not. */
+static void assert_options_are_in(const char *text, const char *whole, const char *where)
+{
+    char name[64], other[64];
+    int count = 0;
+    for (; next_option(&text, name); ++count) {
+        const char *rest = whole;
+        bool found = false;
+        while (!found && next_option(&rest, other))
+            found = strcmp(name, other) == 0;
+        if (!found)
+            fail_msg("%s lacks %s", where, name);
+    }
+    assert_true(count >= 12);
+}
+
+/* The man page has an entry for every option that --help names, and no others. */
+static void the_man_page_has_the_options(void **state)
+{
+    (void)state;
+    char *help = read_help(), *man = read_options_section();
+    int in_help = 0, in_man = 0;
+    assert_options_are_in(help, man, "rt.1");
+    assert_options_are_in(man, help, "--help");
+    for (const char *p = help; (p = strstr(p, "\n  ")); ++p) /* two or six columns in */
+        in_help += strncmp(p + 3, "    --", 6) == 0 || p[3] == '-';
     for (const char *p = man; (p = strstr(p, "\n.TP\n.B")); ++p)
         ++in_man;
-    assert_true(in_help >= 12);
     assert_int_equal(in_man, in_help);
     free(help);
     free(man);
+}
+
+/* What is completed are the options that --help names, and no others. */
+static void the_completions_have_the_options(void **state)
+{
+    (void)state;
+    /* Each file, and where its list of all options begins. */
+    static const char *const files[][2] = {{"src/cli/rt.bash", "words=\"--"},
+                                           {"src/cli/rt.zsh", "_arguments"}};
+    char *help = read_help();
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        char *text = test_read_file(files[i][0], NULL);
+        assert_non_null(text);
+        const char *list = strstr(text, files[i][1]);
+        assert_non_null(list);
+        assert_options_are_in(help, list, files[i][0]);
+        assert_options_are_in(text, help, "--help");
+        free(text);
+    }
+    free(help);
 }
 
 int main(void)
@@ -249,6 +294,7 @@ int main(void)
         cmocka_unit_test(the_environment_names_a_device),
         cmocka_unit_test(misuse),
         cmocka_unit_test(the_man_page_has_the_options),
+        cmocka_unit_test(the_completions_have_the_options),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
