@@ -134,6 +134,7 @@ test: deps ## installs what is missing, builds, runs every test
 	$(remake) check
 
 check: rt $(TESTS) ## builds and runs every test, and looks for no packages
+	@$(SRC)tests/links
 	@$(in_source) RT=$(call from_source,./rt) tests/run $(call from_source,$(TESTS))
 
 HARD_TESTS := $(filter $(BUILD)/tests/hard/%,$(TESTS))
@@ -144,6 +145,7 @@ test-hard: deps ## runs the hard cases with ten times the rays: minutes
 check-hard: rt $(HARD_TESTS)
 	@$(in_source) RT=$(call from_source,./rt) RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
 	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(HARD_TESTS))
+	@$(SRC)tests/hard/table $(BUILD)/hard.md $(SRC)tests/hard/README.md
 
 $(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
@@ -174,7 +176,8 @@ check-asan: $(BUILD)/rt $(TESTS)
 # clang-tidy is by far the slowest, hence last and several at a time; with -quiet it still counts
 # on standard error what it has suppressed.
 .PHONY: lint check-kernels
-lint: deps deps-lint ## the folders' order, clang-format, cppcheck and clang-tidy
+lint: deps deps-lint ## the folders' order, documents, clang-format, cppcheck and clang-tidy
+	$(SRC)tests/links
 	$(SRC)tests/arrows $(SOURCES) $(HEADERS)
 	clang-format --dry-run -Werror $(SOURCES) $(HEADERS) $(wildcard $(SRC)tests/*/*.[ch]) $(KERNELS)
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The process's exit codes (README.md, "Exit codes"). */
+/* The process's exit codes (src/cli/README.md, "Exit codes"). */
 enum rt_code {
     RT_OK = 0,
     RT_ERROR_SCENE = 1,

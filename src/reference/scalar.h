@@ -1,6 +1,7 @@
-/* The reference: plain scalar C that follows the formulas of README.md, "Numerics", and shares no
- * code with the kernels. The float version does the same roundings in the same order, so its hits
- * are the kernels' hits to the bit; the double version is what errors are measured against. */
+/* The reference: plain scalar C that follows the formulas of kernels/README.md, "Numerics", and
+ * shares no code with the kernels. The float version does the same roundings in the same order, so
+ * its hits are the kernels' hits to the bit; the double version is what errors are measured
+ * against. */
 #ifndef RT_REFERENCE_SCALAR_H
 #define RT_REFERENCE_SCALAR_H
 

@@ -1,5 +1,5 @@
 /* The statements of the native scene format as a table: what the parser accepts, what its messages
- * expect, and what the README prints are one and the same. */
+ * expect, and what scenes/README.md prints are one and the same. */
 #ifndef RT_SCENE_TEXT_GRAMMAR_H
 #define RT_SCENE_TEXT_GRAMMAR_H
 
@@ -28,7 +28,7 @@ typedef struct rt_field {
     double min, max;
     int open;
     const char *choices;
-    const char *fallback; /* as text for the README; NULL: the field must be given */
+    const char *fallback; /* as text for the table; NULL: the field must be given */
     const char *meaning;
 } rt_field;
 

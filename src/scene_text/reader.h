@@ -1,5 +1,5 @@
 /* The native scene format: one statement a line, a keyword and then name/value pairs in any order
- * (README.md, "Scene format"). */
+ * (scenes/README.md, "Scene format"). */
 #ifndef RT_SCENE_TEXT_READER_H
 #define RT_SCENE_TEXT_READER_H
 

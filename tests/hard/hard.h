@@ -38,7 +38,7 @@ typedef struct hard_figure {
 } hard_figure;
 
 typedef struct hard_case {
-    int row; /* of the README's table */
+    int row; /* of README.md's table, in this folder */
     const char *name;
     hard_figure figures[HARD_FIGURES]; /* ended by one without `what` */
     /* Each must break the gate of some figure at naive_level, robust if not set; ended by NULL. */

@@ -161,7 +161,7 @@ typedef struct exponent {
 /* A wall square to the axis and a light straight behind the eye: the cosine of the highlight is the
  * part of the view's direction along the axis. What the kernel makes of that number is held against
  * pow in double. The number itself is the level's: the direction's third component, unit by the
- * README's formula. */
+ * kernel's formula. */
 static double cosine_in_float(const rt_frame *f, int x, int y)
 {
     const float across = (float)(2 * x + 1 - f->width), upward = (float)(f->height - 1 - 2 * y);

@@ -365,7 +365,7 @@ static void every_prefix_is_survived(void **state)
     survive_every_prefix("scenes/gallery.txt"); /* its mesh and its picture are not found */
 }
 
-/* The README's table is the parser's own. */
+/* The table of scenes/README.md is the parser's own. */
 static void the_readme_has_the_grammar(void **state)
 {
     (void)state;
@@ -375,10 +375,10 @@ static void the_readme_has_the_grammar(void **state)
     assert_non_null(stream);
     rt_grammar_print(stream);
     fclose(stream);
-    char *readme = test_read_file("README.md", NULL);
+    char *readme = test_read_file("scenes/README.md", NULL);
     assert_non_null(readme);
     if (!strstr(readme, grammar))
-        fail_msg("README.md's table is not what ./rt --grammar prints");
+        fail_msg("scenes/README.md's table is not what ./rt --grammar prints");
     free(grammar);
     free(readme);
 }
