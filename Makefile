@@ -145,7 +145,7 @@ test-hard: deps ## runs the hard cases with ten times the rays: minutes
 check-hard: rt $(HARD_TESTS)
 	@$(in_source) RT=$(call from_source,./rt) RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
 	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(HARD_TESTS))
-	@$(SRC)tests/hard/table $(BUILD)/hard.md $(SRC)tests/hard/README.md
+	@$(SRC)tests/hard/table $(BUILD)/hard.md
 
 $(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
