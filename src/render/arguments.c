@@ -2,6 +2,7 @@
 
 #include "opencl/arguments.h"
 #include "render/state.h"
+#include "scene/camera.h"
 
 #define KNOWN_MOST 64
 
