@@ -1,4 +1,4 @@
-/* The kernels' source as embedded at build time by src/kernel_text.awk. */
+/* The kernels' source as embedded at build time by src/opencl/kernel_text.awk. */
 #ifndef RT_OPENCL_KERNEL_TEXT_H
 #define RT_OPENCL_KERNEL_TEXT_H
 

@@ -1,5 +1,5 @@
 /* What the files of the scalar reference share beyond rays and primitives: sample points, surfaces,
- * and what comes back along a ray. Compiled twice, as scalar_real.h says. */
+ * and what comes back along a ray. Compiled twice, as real.h says. */
 #ifndef RT_REFERENCE_EFFECTS_H
 #define RT_REFERENCE_EFFECTS_H
 
