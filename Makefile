@@ -145,7 +145,7 @@ test-hard: deps ## runs the hard cases with ten times the rays: minutes
 check-hard: rt $(HARD_TESTS)
 	@$(in_source) RT=$(call from_source,./rt) RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
 	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(HARD_TESTS))
-	@$(SRC)tests/hard/table $(BUILD)/hard.md
+	@$(in_source) RT=$(call from_source,./rt) tests/hard/table $(call from_source,$(BUILD)/hard.md)
 
 $(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
@@ -264,7 +264,7 @@ deps-bench:
 
 # Stands in options.h alone.
 VERSION = $(shell sed -n 's/^.define RT_VERSION "\(.*\)"/\1/p' $(SRC)src/cli/options.h)
-DOCS := $(wildcard $(addprefix $(SRC),README.md CHANGELOG.md LICENSE))
+DOCS := $(addprefix $(SRC),README.md LICENSE)
 SCENES := $(wildcard $(SRC)scenes/*.*)
 # Says the program's name, but for the cache's, and its version; a man page's hyphen is \-.
 name = sed -e '/^\.TH/s/RT/\U$(1)/' -e '/\.cache/!s/\<rt\>/$(1)/g' -e 's/@VERSION@/$(VERSION)/'
