@@ -7,24 +7,6 @@ static json_t *count_of(size_t count)
     return json_integer((json_int_t)count);
 }
 
-static json_t *seconds_of(const rt_stats *s)
-{
-    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f}", "parse", s->parse, "accel", s->accel,
-                     "program", s->program, "upload", s->upload, "kernel", s->kernel, "readback",
-                     s->readback, "encode", s->encode, "total", s->total);
-}
-
-/* Every stage that was launched, with its seconds by the device's clock. */
-static json_t *stages_of(const rt_stats *s)
-{
-    json_t *stages = json_object();
-    for (int i = 0; s->times && i < RT_STAGE_COUNT; ++i)
-        if (s->times->launches[i])
-            json_object_set_new(stages, rt_stage_name((enum rt_stage)i),
-                                json_real(s->times->stages[i]));
-    return stages;
-}
-
 /* What each device has done of the picture. */
 static json_t *devices_of(const rt_stats *s)
 {
@@ -38,36 +20,81 @@ static json_t *devices_of(const rt_stats *s)
     return devices;
 }
 
-static json_t *effects_of(const rt_stats *s)
+static json_t *effects_of(const rt_effects *e)
 {
     json_t *effects = json_array();
     for (int i = 0; i < RT_EFFECT_COUNT; ++i)
-        if (s->effects.on[i])
+        if (e->on[i])
             json_array_append_new(effects, json_string(rt_effect_name((enum rt_effect)i)));
     return effects;
 }
 
-/* By kind, those of the scalar path not counted beyond the primary ones. */
-static json_t *rays_of(const rt_stats *s)
+/* Of all devices; of the scalar path only the primary rays are counted, and no part is timed. */
+static rt_render_times times_of(const rt_stats *s)
 {
-    static const rt_render_times none;
-    const rt_render_times *t = s->times ? s->times : &none;
-    const size_t total = s->primary_rays + t->shadow_rays + t->occlusion_rays + t->reflection_rays +
+    if (s->team)
+        return rt_team_times(s->team);
+    return (rt_render_times){.primary_rays = (size_t)s->scene->width * (size_t)s->scene->height};
+}
+
+static json_t *rays_of(const rt_render_times *t)
+{
+    const size_t total = t->primary_rays + t->shadow_rays + t->occlusion_rays + t->reflection_rays +
                          t->refraction_rays;
-    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(s->primary_rays), "shadow",
+    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(t->primary_rays), "shadow",
                      count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
                      "reflection", count_of(t->reflection_rays), "refraction",
                      count_of(t->refraction_rays), "total", count_of(total));
 }
 
+/* What is not reading back counts as the kernels'. */
+static json_t *seconds_of(const rt_stats *s, const rt_render_times *t)
+{
+    return json_pack("{s:f,s:f,s:f,s:f,s:f,s:f,s:f,s:f}", "parse", s->parse, "accel", s->accel,
+                     "program", t->program, "upload", t->upload, "kernel", s->draw - t->readback,
+                     "readback", t->readback, "encode", s->encode, "total", s->total);
+}
+
+/* Every stage that was launched, with its seconds by the device's clock. */
+static json_t *stages_of(const rt_render_times *t)
+{
+    json_t *stages = json_object();
+    for (int i = 0; i < RT_STAGE_COUNT; ++i)
+        if (t->launches[i])
+            json_object_set_new(stages, rt_stage_name((enum rt_stage)i), json_real(t->stages[i]));
+    return stages;
+}
+
+/* The first device's names; the scalar path has one of its own and no driver. */
+typedef struct names {
+    const char *device, *platform, *driver, *accuracy;
+    int lanes;
+} names;
+
+static names names_of(const rt_stats *s)
+{
+    const char *accuracy = rt_accuracy_name(s->scene->accuracy);
+    if (!s->team)
+        return s->target == RT_TARGET_SCALAR_DOUBLE
+                   ? (names){"scalar-double", "", "", "reference", 1}
+                   : (names){"scalar", "", "", accuracy, 1};
+    const rt_team_share first = rt_team_share_of(s->team, 0);
+    return (names){first.device->name, first.device->platform_name, first.device->driver, accuracy,
+                   first.lanes};
+}
+
 bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
 {
+    const rt_scene *scene = s->scene;
+    const rt_render_times t = times_of(s);
+    const names n = names_of(s);
     json_t *root = json_pack(
-        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device",
-        s->device, "platform", s->platform, "driver", s->driver, "accuracy", s->accuracy, "lanes",
-        s->lanes, "width", s->width, "height", s->height, "primitives", "spheres",
-        count_of(s->spheres), "triangles", count_of(s->triangles), "lights", count_of(s->lights),
-        "materials", count_of(s->materials), "rays", rays_of(s), "seconds", seconds_of(s), "stages",
-        stages_of(s), "effects", effects_of(s), "devices", devices_of(s));
+        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device", n.device,
+        "platform", n.platform, "driver", n.driver, "accuracy", n.accuracy, "lanes", n.lanes,
+        "width", scene->width, "height", scene->height, "primitives", "spheres",
+        count_of(scene->sphere_count), "triangles", count_of(scene->triangle_count), "lights",
+        count_of(scene->light_count), "materials", count_of(scene->material_count), "rays",
+        rays_of(&t), "seconds", seconds_of(s, &t), "stages", stages_of(&t), "effects",
+        effects_of(s->effects), "devices", devices_of(s));
     return rt_json_write(root, "--stats", output, status);
 }

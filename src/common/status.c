@@ -74,6 +74,17 @@ bool rt_status_no_memory(rt_status *status, const char *what)
     return rt_status_fail(status, RT_ERROR_DEVICE, "rt: out of memory for %s", what);
 }
 
+void rt_status_print(rt_status *status, FILE *out)
+{
+    if (status->text)
+        fputs(status->text, out);
+    if (status->errors > RT_STATUS_SHOWN)
+        fprintf(out, "rt: %zu more errors\n", status->errors - RT_STATUS_SHOWN);
+    status->length = 0;
+    if (status->text)
+        status->text[0] = '\0';
+}
+
 void rt_status_clear(rt_status *status)
 {
     free(status->text);

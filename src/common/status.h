@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
 /* The process's exit codes (src/cli/README.md, "Exit codes"). */
 enum rt_code {
@@ -39,6 +40,10 @@ void rt_status_warn(rt_status *status, const char *format, ...)
 
 /* Adds the error for memory that could not be had; false. `what` names what it was for. */
 bool rt_status_no_memory(rt_status *status, const char *what);
+
+/* Prints the messages kept, and how many errors there are besides, and forgets their text; the code
+ * and the count of errors stay. */
+void rt_status_print(rt_status *status, FILE *out);
 
 /* Releases the text and makes the status empty again. */
 void rt_status_clear(rt_status *status);

@@ -12,11 +12,10 @@
 /* The longer side of the first picture that is tried for size. */
 #define SIDE_FIRST 64
 
-rt_explanation rt_explain(const rt_scene *scene)
+rt_explanation rt_explain(const rt_scene *scene, const rt_effects *effects)
 {
-    return (rt_explanation){.effects = rt_effects_of(scene),
-                            .picture_width = scene->width,
-                            .picture_height = scene->height};
+    return (rt_explanation){
+        .effects = *effects, .picture_width = scene->width, .picture_height = scene->height};
 }
 
 /* Whether a stage is there for an effect alone, or for one of its kind. */
@@ -82,6 +81,7 @@ typedef struct bench {
     const rt_bvh *bvh;
     const rt_device *device;
     const rt_render_options *options;
+    const rt_effects *effects; /* all of the scene's */
     const rt_watch *outer;
     rt_watch watch;
     double done;            /* what the outer watch is told, whatever the part of one picture is */
@@ -96,9 +96,11 @@ static bool tick(void *context, double done)
     return rt_watch_tick(b->outer, b->done);
 }
 
-static rt_renderer *make_renderer(const bench *b, const rt_scene *scene)
+static rt_renderer *make_renderer(const bench *b, const rt_scene *scene, const rt_effects *effects)
 {
-    return rt_renderer_new(b->device, scene, b->bvh, b->options, b->status);
+    rt_render_options options = *b->options;
+    options.effects = effects;
+    return rt_renderer_new(b->device, scene, b->bvh, &options, b->status);
 }
 
 /* Adds the wall time of one picture. */
@@ -116,7 +118,7 @@ static bool time_size(const bench *b, const rt_scene *scene, double *seconds)
     rt_image image;
     if (!rt_image_init(&image, scene->width, scene->height, false, b->status))
         return false;
-    rt_renderer *renderer = make_renderer(b, scene);
+    rt_renderer *renderer = make_renderer(b, scene, b->effects);
     const bool good =
         renderer && draw(b, renderer, &image, seconds) && draw(b, renderer, &image, seconds);
     rt_renderer_free(renderer);
@@ -189,7 +191,8 @@ static bool measure_effect(const bench *b, const rt_scene *scene, rt_renderer *w
     if (!copy_scene(&less, scene, b->status))
         return false;
     rt_effects_remove(&less, effect);
-    rt_renderer *without = make_renderer(b, &less);
+    const rt_effects effects = rt_effects_of(&less);
+    rt_renderer *without = make_renderer(b, &less, &effects);
     const bool good = without && draw_pairs(b, with, without, image, effect, cost);
     rt_renderer_free(without);
     free_copy(&less);
@@ -200,7 +203,7 @@ bool rt_explain_measure(rt_explanation *e, const rt_scene *scene, const rt_bvh *
                         const rt_device *device, const rt_render_options *options,
                         const rt_watch *watch, rt_status *status)
 {
-    bench b = {bvh, device, options, watch, {tick, NULL}, 0.0, 0.0, status};
+    bench b = {bvh, device, options, &e->effects, watch, {tick, NULL}, 0.0, 0.0, status};
     int count = 0;
     for (int i = 0; i < RT_EFFECT_COUNT; ++i)
         count += e->effects.on[i];
@@ -213,7 +216,7 @@ bool rt_explain_measure(rt_explanation *e, const rt_scene *scene, const rt_bvh *
     rt_renderer *with = NULL;
     bool good = choose_size(&b, &small) &&
                 rt_image_init(&image, small.width, small.height, false, status) &&
-                (with = make_renderer(&b, &small)) != NULL;
+                (with = make_renderer(&b, &small, b.effects)) != NULL;
     for (int i = 0; good && i < RT_EFFECT_COUNT; ++i) {
         b.done = (double)i / RT_EFFECT_COUNT;
         if (e->effects.on[i])

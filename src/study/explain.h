@@ -26,10 +26,11 @@ typedef struct rt_explanation {
     rt_explain_cost costs[RT_EFFECT_COUNT];
 } rt_explanation;
 
-/* What the scene calls for, without any cost. */
-rt_explanation rt_explain(const rt_scene *scene);
+/* What the scene calls for, which is `effects`, without any cost. */
+rt_explanation rt_explain(const rt_scene *scene, const rt_effects *effects);
 
-/* Measures every effect that is on. The tree is the scene's own, or NULL. The picture is made
+/* Measures every effect that is on. The tree is the scene's own, or NULL; the options' effects do
+ * not count. The picture is made
  * smaller where it would take minutes; kernels that are built for the first time add to the time.
  */
 bool rt_explain_measure(rt_explanation *explanation, const rt_scene *scene, const rt_bvh *bvh,

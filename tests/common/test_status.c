@@ -1,4 +1,5 @@
 /* Messages: kept, counted, and bounded. */
+#define _GNU_SOURCE
 #include "support/support.h"
 
 #include <string.h>
@@ -30,6 +31,23 @@ static void only_so_many_are_kept(void **state)
     rt_status_clear(&status);
 }
 
+static void what_is_printed_is_not_printed_again(void **state)
+{
+    (void)state;
+    char text[4096] = "";
+    rt_status status = RT_STATUS_INIT;
+    for (int i = 0; i < RT_STATUS_SHOWN + 3; ++i)
+        rt_status_fail(&status, RT_ERROR_SCENE, "message");
+    FILE *out = fmemopen(text, sizeof text, "w");
+    assert_non_null(out);
+    rt_status_print(&status, out);
+    assert_int_equal(fclose(out), 0);
+    assert_string_equal(text + RT_STATUS_SHOWN * strlen("message\n"), "rt: 3 more errors\n");
+    assert_string_equal(status.text, "");
+    assert_int_equal(status.code, RT_ERROR_SCENE);
+    rt_status_clear(&status);
+}
+
 static void long_messages_are_whole(void **state)
 {
     (void)state;
@@ -57,6 +75,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_first_error_decides_the_code),
         cmocka_unit_test(only_so_many_are_kept),
+        cmocka_unit_test(what_is_printed_is_not_printed_again),
         cmocka_unit_test(long_messages_are_whole),
         cmocka_unit_test(control_characters_are_not_passed_on),
     };

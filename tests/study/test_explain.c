@@ -43,7 +43,8 @@ static void without_cost(void **state)
     rt_scene scene;
     char called[320];
     test_scene(&scene, SCENE);
-    const rt_explanation e = rt_explain(&scene);
+    const rt_effects effects = rt_effects_of(&scene);
+    const rt_explanation e = rt_explain(&scene, &effects);
     char *text = print(&e);
     assert_line(text, "culling", "off  not compiled\n");
     assert_line(text, "fog", "off  not compiled\n");
@@ -82,7 +83,8 @@ static void measured(void **state)
     const rt_watch watch = {count_ticks, &ticks};
     const rt_render_options options = {0};
     test_scene(&scene, SCENE);
-    rt_explanation e = rt_explain(&scene);
+    const rt_effects effects = rt_effects_of(&scene);
+    rt_explanation e = rt_explain(&scene, &effects);
     const float reflect = scene.materials[0].reflect;
     assert_good(rt_explain_measure(&e, &scene, NULL, test_device(), &options, &watch, &status),
                 &status);
@@ -125,7 +127,8 @@ static void a_measurement_can_be_stopped(void **state)
     const rt_watch watch = {stop, &ticks};
     const rt_render_options options = {0};
     test_scene(&scene, SCENE);
-    rt_explanation e = rt_explain(&scene);
+    const rt_effects effects = rt_effects_of(&scene);
+    rt_explanation e = rt_explain(&scene, &effects);
     assert_false(rt_explain_measure(&e, &scene, NULL, test_device(), &options, &watch, &status));
     assert_int_equal(status.code, RT_INTERRUPTED);
     rt_status_clear(&status);

@@ -1,0 +1,24 @@
+/* What rt does, an action a file: action_render.c, action_study.c, ... Each returns false after an
+ * error, which is in the run's status; main.c begins the run and ends it. */
+#ifndef RT_CLI_ACTIONS_H
+#define RT_CLI_ACTIONS_H
+
+#include "cli/run.h"
+
+/* Renders the scene and writes the picture, its hit records and what it took. */
+bool rt_action_render(rt_run *run);
+
+/* A part of rendering: prints how far a picture that devices have drawn is from the scalar path's.
+ * False with code RT_DIFFERENT where they differ in a way that they must not. */
+bool rt_action_verify(rt_run *run, const rt_image *image);
+
+/* Renders the scene at every level and writes what that costs. */
+bool rt_action_study(rt_run *run);
+
+/* Tells what the scene calls for and, unless told not to, what that costs. */
+bool rt_action_explain(rt_run *run);
+
+/* Lists the devices; for this the run is not begun. */
+bool rt_action_list(rt_run *run);
+
+#endif

@@ -1,0 +1,57 @@
+/* What every run on a scene opens, in one place, so that one function lets it go again. */
+#ifndef RT_CLI_RUN_H
+#define RT_CLI_RUN_H
+
+#include "bvh/bvh.h"
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/stats.h"
+#include "common/status.h"
+#include "common/watch.h"
+#include "image/image.h"
+#include "opencl/device.h"
+#include "scene/effects.h"
+#include "scene/scene.h"
+
+typedef struct rt_run {
+    rt_options options;
+    rt_status status;
+    double start; /* by rt_clock_seconds */
+    rt_watch watch;
+    rt_progress progress;
+    rt_scene scene;
+    rt_effects effects; /* of the scene */
+    rt_device_opening opening;
+    rt_device_list devices;
+    const rt_device **chosen; /* owned: room for all devices; NULL until they are chosen */
+    size_t chosen_count;
+    rt_bvh bvh;
+    rt_stats stats; /* as far as it is known */
+} rt_run;
+
+/* Begins a run whose options are read: signals stop it, and devices open while the scene is read.
+ * Whatever comes of it, rt_run_end lets go what the run has opened. */
+void rt_run_begin(rt_run *run);
+void rt_run_end(rt_run *run);
+
+/* Each of these returns false after an error, which is in the run's status. */
+
+/* Reads the scene, as the options change it, and tells the warnings so far. */
+bool rt_run_read_scene(rt_run *run);
+
+/* Finds the devices to render on; there is nothing to find for the scalar path. */
+bool rt_run_choose_devices(rt_run *run);
+
+/* *tree is the run's, or NULL where every primitive is to be tried. */
+bool rt_run_build_tree(rt_run *run, const rt_bvh **tree);
+
+/* Renders the scene with the scalar path, which tells its progress. */
+bool rt_run_draw_scalar(rt_run *run, bool in_double, rt_image *image);
+
+/* Tells the warnings so far, unless the run is quiet, and forgets them. */
+void rt_run_warn(rt_run *run);
+
+/* From here on the watch tells the progress of one computation, until rt_progress_clear. */
+void rt_run_begin_progress(rt_run *run);
+
+#endif

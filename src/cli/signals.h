@@ -1,0 +1,13 @@
+/* A run that is asked to stop. */
+#ifndef RT_CLI_SIGNALS_H
+#define RT_CLI_SIGNALS_H
+
+#include <stdbool.h>
+
+/* From now on SIGINT and SIGTERM are only noted. */
+void rt_signals_catch(void);
+
+/* Whether one has come; any thread may ask. */
+bool rt_signals_have_come(void);
+
+#endif
