@@ -19,13 +19,14 @@ static bool act(rt_run *run)
         return true;
     case RT_ACTION_LIST:
         return rt_action_list(run);
+    case RT_ACTION_STUDY:
+        return rt_action_study(run);
+    case RT_ACTION_EXPLAIN:
+        return rt_action_explain(run);
     case RT_ACTION_RENDER:
         break;
     }
-    rt_run_begin(run);
-    if (run->options.explain)
-        return rt_action_explain(run);
-    return run->options.study ? rt_action_study(run) : rt_action_render(run);
+    return rt_action_render(run);
 }
 
 int main(int argc, char **argv)

@@ -29,7 +29,7 @@ static bool tell(rt_run *r, const rt_explanation *e, rt_output *stats)
 bool rt_action_explain(rt_run *r)
 {
     rt_output stats = RT_OUTPUT_INIT;
-    if (!rt_run_read_scene(r) ||
+    if (!rt_run_begin(r) ||
         (r->options.stats && !rt_output_open(&stats, r->options.stats, &r->status)))
         return false;
     rt_explanation e = rt_explain(&r->scene, &r->effects);

@@ -84,7 +84,7 @@ bool rt_action_render(rt_run *r)
     outputs out = {RT_OUTPUT_INIT, RT_OUTPUT_INIT, RT_OUTPUT_INIT};
     rt_image image = {0};
     rt_team *team = NULL;
-    bool good = rt_run_read_scene(r) && open_outputs(r, &out) && rt_run_choose_devices(r) &&
+    bool good = rt_run_begin(r) && open_outputs(r, &out) && rt_run_choose_devices(r) &&
                 draw(r, &image, &team);
     if (good) {
         /* A picture that differs is still written: it is what there is to look at. */

@@ -22,7 +22,7 @@ bool rt_action_study(rt_run *r)
     rt_study study = {0};
     rt_study_files files = RT_STUDY_FILES_INIT;
     /* Opened before the work: a target that cannot be written is known at once. */
-    const bool good = rt_run_read_scene(r) &&
+    const bool good = rt_run_begin(r) &&
                       rt_study_files_open(&files, r->options.study, &r->status) &&
                       rt_run_choose_devices(r) && measure(r, &study) &&
                       rt_study_files_write(&files, &study, &r->watch, &r->status);

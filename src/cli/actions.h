@@ -1,5 +1,5 @@
 /* What rt does, an action a file: action_render.c, action_study.c, ... Each returns false after an
- * error, which is in the run's status; main.c begins the run and ends it. */
+ * error, which is in the run's status; main.c ends the run. */
 #ifndef RT_CLI_ACTIONS_H
 #define RT_CLI_ACTIONS_H
 
@@ -18,7 +18,7 @@ bool rt_action_study(rt_run *run);
 /* Tells what the scene calls for and, unless told not to, what that costs. */
 bool rt_action_explain(rt_run *run);
 
-/* Lists the devices; for this the run is not begun. */
+/* Lists the devices. */
 bool rt_action_list(rt_run *run);
 
 #endif

@@ -9,120 +9,6 @@
 #include "render/renderer.h"
 #include "scene/scene.h"
 
-enum {
-    OPTION_DEVICE = 'd',
-    OPTION_QUIET = 'q',
-    OPTION_HELP = 'h',
-    OPTION_ACCEL = 256,
-    OPTION_ACCURACY,
-    OPTION_EFFECTS,
-    OPTION_EXPLAIN,
-    OPTION_NO_COST,
-    OPTION_LIST,
-    OPTION_LANES,
-    OPTION_TILE,
-    OPTION_SIZE,
-    OPTION_HITS,
-    OPTION_VERIFY,
-    OPTION_STATS,
-    OPTION_GRAMMAR,
-    OPTION_PROGRESS,
-    OPTION_STUDY,
-    OPTION_STUDY_LEVELS,
-    OPTION_STUDY_REPEATS,
-    OPTION_STUDY_SAMPLES,
-    OPTION_VERSION
-};
-
-static const struct option long_options[] = {
-    {"accel", required_argument, NULL, OPTION_ACCEL},
-    {"accuracy", required_argument, NULL, OPTION_ACCURACY},
-    {"device", required_argument, NULL, OPTION_DEVICE},
-    {"effects", required_argument, NULL, OPTION_EFFECTS},
-    {"explain", no_argument, NULL, OPTION_EXPLAIN},
-    {"grammar", no_argument, NULL, OPTION_GRAMMAR},
-    {"help", no_argument, NULL, OPTION_HELP},
-    {"hits", required_argument, NULL, OPTION_HITS},
-    {"lanes", required_argument, NULL, OPTION_LANES},
-    {"list-devices", no_argument, NULL, OPTION_LIST},
-    {"no-cost", no_argument, NULL, OPTION_NO_COST},
-    {"progress", required_argument, NULL, OPTION_PROGRESS},
-    {"quiet", no_argument, NULL, OPTION_QUIET},
-    {"size", required_argument, NULL, OPTION_SIZE},
-    {"stats", required_argument, NULL, OPTION_STATS},
-    {"study", required_argument, NULL, OPTION_STUDY},
-    {"study-levels", required_argument, NULL, OPTION_STUDY_LEVELS},
-    {"study-repeats", required_argument, NULL, OPTION_STUDY_REPEATS},
-    {"study-samples", required_argument, NULL, OPTION_STUDY_SAMPLES},
-    {"tile", required_argument, NULL, OPTION_TILE},
-    {"verify", no_argument, NULL, OPTION_VERIFY},
-    {"version", no_argument, NULL, OPTION_VERSION},
-    {NULL, 0, NULL, 0}};
-
-void rt_options_help(FILE *out)
-{
-    fputs(
-        "Usage: rt [OPTION]... SCENE OUTPUT\n"
-        "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
-        "       rt [OPTION]... --explain SCENE\n"
-        "       rt [OPTION]... --study=REPORT SCENE\n"
-        "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
-        "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
-        "be left out with --verify, --hits or --stats.\n"
-        "\n"
-        "      --accel=HOW      bvh, the default, or none: try every primitive with every ray;\n"
-        "                       the picture is the same\n"
-        "      --accuracy=LEVEL fast, standard (the default), robust or double, whatever the\n"
-        "                       scene says\n"
-        "  -d, --device=DEVICE  where to render: an index of --list-devices, P:D, cpu, gpu,\n"
-        "                       accelerator, any part of a name, scalar (plain C in float) or\n"
-        "                       scalar-double; several with commas between them, or all,\n"
-        "                       share the picture; by default RT_DEVICE, else the first GPU,\n"
-        "                       else the first CPU\n"
-        "      --effects=WHICH  what is compiled into the kernels: scene, what the scene calls "
-        "for,\n"
-        "                       the default; all, everything, switched at run time, for the\n"
-        "                       same picture; none, Phong alone\n"
-        "      --explain        print which effects the scene calls for, by which line, and what\n"
-        "                       each costs on this device\n"
-        "      --grammar        print the scene format as a table and exit\n"
-        "  -h, --help           print this help and exit\n"
-        "      --hits=FILE      write what each pixel hits: int32 primitive, float32 t, u, v\n"
-        "      --lanes=N        rays in a vector when tracing: 1, 4, 8 or 16; by default the\n"
-        "                       device's native float width, 1 on a GPU\n"
-        "      --list-devices   list the OpenCL devices and exit\n"
-        "      --no-cost        explain without measuring, and without a device\n"
-        "      --progress=WHEN  tell on standard error how far a long render is: auto (the\n"
-        "                       default: on a terminal), always or never\n"
-        "  -q, --quiet          print errors only\n"
-        "      --size=WxH       picture size in pixels, whatever the scene says\n"
-        "      --stats=FILE     write what was done and how long it took as JSON (- for\n"
-        "                       standard output)\n"
-        "      --study=REPORT   measure what accuracy costs: the scene at every level and several\n"
-        "                       counts of samples, its errors and times, to REPORT.json, .csv,\n"
-        "                       .md, .svg and .png\n"
-        "      --study-levels=LEVELS\n"
-        "                       levels to study, with commas between them; all by default\n"
-        "      --study-repeats=N\n"
-        "                       timed repeats, 9 by default\n"
-        "      --study-samples=LIST\n"
-        "                       samples a pixel to study, 1,4,16,64 by default\n"
-        "      --tile=N         side of the tiles that the picture is rendered in, in pixels\n"
-        "      --verify         render with the scalar path too and compare\n"
-        "      --version        print the version and exit\n"
-        "\n"
-        "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
-        "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
-        "130 interrupted.\n",
-        out);
-}
-
-static bool fail(rt_status *status, const char *option, const char *value, const char *expected)
-{
-    return rt_status_fail(status, RT_ERROR_USAGE, "rt: found '%s'; %s takes %s", value, option,
-                          expected);
-}
-
 static bool read_whole(const char *text, size_t length, int64_t low, int64_t high, int *out)
 {
     int64_t value = 0;
@@ -132,132 +18,217 @@ static bool read_whole(const char *text, size_t length, int64_t low, int64_t hig
     return true;
 }
 
-static bool read_size(rt_options *options, const char *text, rt_status *status)
+/* The options' values. Each is false for a value that its option does not take; those of options
+ * without one get NULL. */
+
+static bool read_accel(rt_options *o, const char *value)
 {
-    const char *x = strchr(text, 'x');
-    if (!x || !read_whole(text, (size_t)(x - text), 1, RT_IMAGE_SIDE_MAX, &options->width) ||
-        !read_whole(x + 1, strlen(x + 1), 1, RT_IMAGE_SIDE_MAX, &options->height) ||
-        (int64_t)options->width * options->height > RT_IMAGE_PIXELS_MAX)
-        return fail(status, "--size", text,
-                    "WxH, such as 640x480, each from 1 to 65535, at most 268435456 pixels in all");
-    return true;
+    o->accel = strcmp(value, "none") == 0 ? RT_ACCEL_NONE : RT_ACCEL_BVH;
+    return o->accel == RT_ACCEL_NONE || strcmp(value, "bvh") == 0;
 }
 
-static bool read_lanes(rt_options *options, const char *text, rt_status *status)
+static bool read_accuracy(rt_options *o, const char *value)
 {
-    int lanes = 0;
-    if (!read_whole(text, strlen(text), 1, 16, &lanes) ||
-        (lanes != 1 && lanes != 4 && lanes != 8 && lanes != 16))
-        return fail(status, "--lanes", text, "1, 4, 8 or 16");
-    options->lanes = lanes;
-    return true;
+    o->has_accuracy = true;
+    return rt_accuracy_of_name(value, &o->accuracy);
 }
 
-static void read_device(rt_options *options, const char *text)
+static bool read_device(rt_options *o, const char *value)
 {
-    options->device = text;
-    options->target = RT_TARGET_DEVICE;
-    if (strcasecmp(text, "scalar") == 0)
-        options->target = RT_TARGET_SCALAR;
-    else if (strcasecmp(text, "scalar-double") == 0)
-        options->target = RT_TARGET_SCALAR_DOUBLE;
+    o->device = value;
+    o->target = RT_TARGET_DEVICE;
+    if (strcasecmp(value, "scalar") == 0)
+        o->target = RT_TARGET_SCALAR;
+    else if (strcasecmp(value, "scalar-double") == 0)
+        o->target = RT_TARGET_SCALAR_DOUBLE;
+    return *value != '\0';
 }
 
-static bool read_progress(rt_options *options, const char *text, rt_status *status)
+static bool read_effects(rt_options *o, const char *value)
+{
+    return rt_effects_mode_of_name(value, &o->effects);
+}
+
+static bool read_lanes(rt_options *o, const char *value)
+{
+    return read_whole(value, strlen(value), 1, 16, &o->lanes) &&
+           (o->lanes == 1 || o->lanes == 4 || o->lanes == 8 || o->lanes == 16);
+}
+
+static bool read_progress(rt_options *o, const char *value)
 {
     static const char *const names[] = {[RT_PROGRESS_AUTO] = "auto",
                                         [RT_PROGRESS_ALWAYS] = "always",
                                         [RT_PROGRESS_NEVER] = "never"};
     for (int i = 0; i < 3; ++i)
-        if (strcmp(text, names[i]) == 0) {
-            options->progress = (enum rt_progress_when)i;
+        if (strcmp(value, names[i]) == 0) {
+            o->progress = (enum rt_progress_when)i;
             return true;
         }
-    return fail(status, "--progress", text, "auto, always or never");
+    return false;
 }
 
-static bool read_plan(rt_options *options, int code, const char *value, rt_status *status)
+static bool read_size(rt_options *o, const char *value)
 {
-    rt_study_plan *plan = &options->plan;
-    options->has_plan = true;
-    if (code == OPTION_STUDY_LEVELS)
-        return rt_study_plan_read_levels(plan, value) ||
-               fail(status, "--study-levels", value,
-                    "fast, standard, robust or double, or several with commas between them");
-    if (code == OPTION_STUDY_SAMPLES)
-        return rt_study_plan_read_samples(plan, value) ||
-               fail(status, "--study-samples", value,
-                    "up to 16 whole numbers from 1 to 4096 with commas between them");
-    return read_whole(value, strlen(value), 1, RT_STUDY_REPEATS_MAX, &plan->repeats) ||
-           fail(status, "--study-repeats", value, "a whole number from 1 to 1000");
+    const char *x = strchr(value, 'x');
+    return x && read_whole(value, (size_t)(x - value), 1, RT_IMAGE_SIDE_MAX, &o->width) &&
+           read_whole(x + 1, strlen(x + 1), 1, RT_IMAGE_SIDE_MAX, &o->height) &&
+           (int64_t)o->width * o->height <= RT_IMAGE_PIXELS_MAX;
 }
 
-static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
+static bool read_study(rt_options *o, const char *value)
 {
-    switch (code) {
-    case OPTION_ACCEL:
-        options->accel = strcmp(value, "none") == 0 ? RT_ACCEL_NONE : RT_ACCEL_BVH;
-        return options->accel == RT_ACCEL_NONE || strcmp(value, "bvh") == 0 ||
-               fail(status, "--accel", value, "bvh or none");
-    case OPTION_ACCURACY:
-        options->has_accuracy = true;
-        return rt_accuracy_of_name(value, &options->accuracy) ||
-               fail(status, "--accuracy", value, "fast, standard, robust or double");
-    case OPTION_DEVICE:
-        read_device(options, value);
-        return *value || fail(status, "--device", value, "the name or index of a device");
-    case OPTION_EFFECTS:
-        return rt_effects_mode_of_name(value, &options->effects) ||
-               fail(status, "--effects", value, "scene, all or none");
-    case OPTION_EXPLAIN:
-        options->explain = true;
-        return true;
-    case OPTION_NO_COST:
-        options->no_cost = true;
-        return true;
-    case OPTION_LANES:
-        return read_lanes(options, value, status);
-    case OPTION_TILE:
-        return read_whole(value, strlen(value), 1, RT_TILE_MAX, &options->tile) ||
-               fail(status, "--tile", value, "a whole number from 1 to 4096");
-    case OPTION_SIZE:
-        return read_size(options, value, status);
-    case OPTION_HITS:
-        options->hits = value;
-        return true;
-    case OPTION_STATS:
-        options->stats = value;
-        return true;
-    case OPTION_STUDY:
-        options->study = value;
-        return *value || fail(status, "--study", value, "what the names of the report begin with");
-    case OPTION_STUDY_LEVELS:
-    case OPTION_STUDY_REPEATS:
-    case OPTION_STUDY_SAMPLES:
-        return read_plan(options, code, value, status);
-    case OPTION_PROGRESS:
-        return read_progress(options, value, status);
-    case OPTION_VERIFY:
-        options->verify = true;
-        return true;
-    case OPTION_QUIET:
-        options->quiet = true;
-        return true;
-    case OPTION_LIST:
-        options->action = RT_ACTION_LIST;
-        return true;
-    case OPTION_GRAMMAR:
-        options->action = RT_ACTION_GRAMMAR;
-        return true;
-    case OPTION_HELP:
-        options->action = RT_ACTION_HELP;
-        return true;
-    case OPTION_VERSION:
-        options->action = RT_ACTION_VERSION;
-        return true;
-    default:
-        return false;
+    o->study = value;
+    return *value != '\0';
+}
+
+static bool read_study_levels(rt_options *o, const char *value)
+{
+    o->has_plan = true;
+    return rt_study_plan_read_levels(&o->plan, value);
+}
+
+static bool read_study_repeats(rt_options *o, const char *value)
+{
+    o->has_plan = true;
+    return read_whole(value, strlen(value), 1, RT_STUDY_REPEATS_MAX, &o->plan.repeats);
+}
+
+static bool read_study_samples(rt_options *o, const char *value)
+{
+    o->has_plan = true;
+    return rt_study_plan_read_samples(&o->plan, value);
+}
+
+static bool read_tile(rt_options *o, const char *value)
+{
+    return read_whole(value, strlen(value), 1, RT_TILE_MAX, &o->tile);
+}
+
+/* Those that take any value or none. */
+#define READER(name, effect)                                                                       \
+    static bool read_##name(rt_options *o, const char *value)                                      \
+    {                                                                                              \
+        (void)value;                                                                               \
+        effect;                                                                                    \
+        return true;                                                                               \
     }
+
+READER(explain, o->explain = true)
+READER(grammar, o->action = RT_ACTION_GRAMMAR)
+READER(help, o->action = RT_ACTION_HELP)
+READER(hits, o->hits = value)
+READER(list_devices, o->action = RT_ACTION_LIST)
+READER(no_cost, o->no_cost = true)
+READER(quiet, o->quiet = true)
+READER(stats, o->stats = value)
+READER(verify, o->verify = true)
+READER(version, o->action = RT_ACTION_VERSION)
+
+/* Everything about an option, in the order of --help. */
+static const struct row {
+    const char *name;
+    char letter;       /* that stands for it behind one dash, or 0 */
+    const char *value; /* what --help calls it; NULL for an option without one */
+    bool (*read)(rt_options *o, const char *value);
+    const char *takes; /* what it says of a value that it does not take; NULL where it takes all */
+    const char *help;  /* lines */
+} rows[] = {
+    {"accel", 0, "HOW", read_accel, "bvh or none",
+     "bvh, the default, or none: try every primitive with every ray;\n"
+     "the picture is the same\n"},
+    {"accuracy", 0, "LEVEL", read_accuracy, "fast, standard, robust or double",
+     "fast, standard (the default), robust or double, whatever the\n"
+     "scene says\n"},
+    {"device", 'd', "DEVICE", read_device, "the name or index of a device",
+     "where to render: an index of --list-devices, P:D, cpu, gpu,\n"
+     "accelerator, any part of a name, scalar (plain C in float) or\n"
+     "scalar-double; several with commas between them, or all,\n"
+     "share the picture; by default RT_DEVICE, else the first GPU,\n"
+     "else the first CPU\n"},
+    {"effects", 0, "WHICH", read_effects, "scene, all or none",
+     "what is compiled into the kernels: scene, what the scene calls for,\n"
+     "the default; all, everything, switched at run time, for the\n"
+     "same picture; none, Phong alone\n"},
+    {"explain", 0, NULL, read_explain, NULL,
+     "print which effects the scene calls for, by which line, and what\n"
+     "each costs on this device\n"},
+    {"grammar", 0, NULL, read_grammar, NULL, "print the scene format as a table and exit\n"},
+    {"help", 'h', NULL, read_help, NULL, "print this help and exit\n"},
+    {"hits", 0, "FILE", read_hits, NULL,
+     "write what each pixel hits: int32 primitive, float32 t, u, v\n"},
+    {"lanes", 0, "N", read_lanes, "1, 4, 8 or 16",
+     "rays in a vector when tracing: 1, 4, 8 or 16; by default the\n"
+     "device's native float width, 1 on a GPU\n"},
+    {"list-devices", 0, NULL, read_list_devices, NULL, "list the OpenCL devices and exit\n"},
+    {"no-cost", 0, NULL, read_no_cost, NULL, "explain without measuring, and without a device\n"},
+    {"progress", 0, "WHEN", read_progress, "auto, always or never",
+     "tell on standard error how far a long render is: auto (the\n"
+     "default: on a terminal), always or never\n"},
+    {"quiet", 'q', NULL, read_quiet, NULL, "print errors only\n"},
+    {"size", 0, "WxH", read_size,
+     "WxH, such as 640x480, each from 1 to 65535, at most 268435456 pixels in all",
+     "picture size in pixels, whatever the scene says\n"},
+    {"stats", 0, "FILE", read_stats, NULL,
+     "write what was done and how long it took as JSON (- for\n"
+     "standard output)\n"},
+    {"study", 0, "REPORT", read_study, "what the names of the report begin with",
+     "measure what accuracy costs: the scene at every level and several\n"
+     "counts of samples, its errors and times, to REPORT.json, .csv,\n"
+     ".md, .svg and .png\n"},
+    {"study-levels", 0, "LEVELS", read_study_levels,
+     "fast, standard, robust or double, or several with commas between them",
+     "levels to study, with commas between them; all by default\n"},
+    {"study-repeats", 0, "N", read_study_repeats, "a whole number from 1 to 1000",
+     "timed repeats, 9 by default\n"},
+    {"study-samples", 0, "LIST", read_study_samples,
+     "up to 16 whole numbers from 1 to 4096 with commas between them",
+     "samples a pixel to study, 1,4,16,64 by default\n"},
+    {"tile", 0, "N", read_tile, "a whole number from 1 to 4096",
+     "side of the tiles that the picture is rendered in, in pixels\n"},
+    {"verify", 0, NULL, read_verify, NULL, "render with the scalar path too and compare\n"},
+    {"version", 0, NULL, read_version, NULL, "print the version and exit\n"},
+};
+
+#define ROWS (sizeof rows / sizeof *rows)
+/* Where the lines of --help about an option begin. */
+#define HELP_COLUMN 23
+
+static void print_row(const struct row *row, FILE *out)
+{
+    int width = row->letter ? fprintf(out, "  -%c, ", row->letter) : fprintf(out, "      ");
+    width +=
+        fprintf(out, "--%s%s%s", row->name, row->value ? "=" : "", row->value ? row->value : "");
+    if (width >= HELP_COLUMN) {
+        fputc('\n', out);
+        width = 0;
+    }
+    for (const char *line = row->help; *line;) {
+        const char *end = strchr(line, '\n') + 1;
+        fprintf(out, "%*s%.*s", HELP_COLUMN - width, "", (int)(end - line), line);
+        line = end;
+        width = 0;
+    }
+}
+
+void rt_options_help(FILE *out)
+{
+    fputs("Usage: rt [OPTION]... SCENE OUTPUT\n"
+          "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
+          "       rt [OPTION]... --explain SCENE\n"
+          "       rt [OPTION]... --study=REPORT SCENE\n"
+          "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
+          "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
+          "be left out with --verify, --hits or --stats.\n"
+          "\n",
+          out);
+    for (size_t i = 0; i < ROWS; ++i)
+        print_row(&rows[i], out);
+    fputs("\n"
+          "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
+          "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
+          "130 interrupted.\n",
+          out);
 }
 
 static bool fail_usage(rt_status *status, const char *message, const char *what)
@@ -274,7 +245,10 @@ static bool check_devices(const char *text, rt_status *status)
         next += strspn(next, " ");
         const size_t length = strcspn(next, ",");
         if (length == 0)
-            return fail(status, "--device", text, "a name or index on each side of a comma");
+            return rt_status_fail(status, RT_ERROR_USAGE,
+                                  "rt: found '%s'; --device takes a name or index on each side of "
+                                  "a comma",
+                                  text);
         if ((length == 6 && strncasecmp(next, "scalar", length) == 0) ||
             (length == 13 && strncasecmp(next, "scalar-double", length) == 0))
             return fail_usage(status, "the scalar path renders alone, not as in --device ", text);
@@ -349,7 +323,39 @@ static bool check(rt_options *o, rt_status *status)
     if (o->verify && o->target != RT_TARGET_DEVICE)
         return fail_usage(status, "--verify holds a device against the scalar path; choose one",
                           "");
+    o->action = o->explain ? RT_ACTION_EXPLAIN : o->study ? RT_ACTION_STUDY : RT_ACTION_RENDER;
     return true;
+}
+
+/* The rows as getopt_long takes them; its code for a row is the row's letter or this much and the
+ * row's index. */
+#define CODE_FIRST 256
+
+static void list_for_getopt(struct option longs[ROWS + 1], char letters[2 * ROWS + 2])
+{
+    char *letter = letters;
+    *letter++ = ':'; /* a missing value is told apart from an unknown option */
+    for (size_t i = 0; i < ROWS; ++i) {
+        longs[i] = (struct option){rows[i].name, rows[i].value ? required_argument : no_argument,
+                                   NULL, CODE_FIRST + (int)i};
+        if (rows[i].letter)
+            *letter++ = rows[i].letter;
+        if (rows[i].letter && rows[i].value)
+            *letter++ = ':';
+    }
+    longs[ROWS] = (struct option){0};
+    *letter = '\0';
+}
+
+static bool read_option(rt_options *options, int code, const char *value, rt_status *status)
+{
+    size_t i = code >= CODE_FIRST ? (size_t)(code - CODE_FIRST) : 0;
+    while (code < CODE_FIRST && rows[i].letter != code)
+        ++i;
+    if (rows[i].read(options, value))
+        return true;
+    return rt_status_fail(status, RT_ERROR_USAGE, "rt: found '%s'; --%s takes %s", value,
+                          rows[i].name, rows[i].takes);
 }
 
 bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *status)
@@ -357,11 +363,14 @@ bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *stat
     *options = (rt_options){.format = RT_IMAGE_UNKNOWN, .plan = rt_study_plan_default()};
     const char *environment = getenv("RT_DEVICE");
     if (environment && *environment)
-        read_device(options, environment);
+        (void)read_device(options, environment);
+    struct option longs[ROWS + 1];
+    char letters[2 * ROWS + 2];
+    list_for_getopt(longs, letters);
     opterr = 0;
     optind = 0; /* GNU's sign to begin afresh */
     for (;;) {
-        const int code = getopt_long(argc, argv, ":d:hq", long_options, NULL);
+        const int code = getopt_long(argc, argv, letters, longs, NULL);
         if (code == -1)
             break;
         if (code == ':')

@@ -19,15 +19,6 @@ static bool keep_going(void *context, double done)
     return !rt_signals_have_come();
 }
 
-void rt_run_begin(rt_run *r)
-{
-    rt_signals_catch();
-    r->watch = (rt_watch){keep_going, r};
-    rt_scene_init(&r->scene);
-    if (r->options.target == RT_TARGET_DEVICE && !r->options.no_cost)
-        rt_device_list_begin(&r->opening);
-}
-
 void rt_run_end(rt_run *r)
 {
     rt_bvh_clear(&r->bvh);
@@ -55,7 +46,7 @@ void rt_run_begin_progress(rt_run *r)
     rt_progress_begin(&r->progress, shown ? stderr : NULL, is_terminal, rt_clock_seconds());
 }
 
-bool rt_run_read_scene(rt_run *r)
+static bool read_scene(rt_run *r)
 {
     const rt_options *o = &r->options;
     const double start = rt_clock_seconds();
@@ -74,6 +65,16 @@ bool rt_run_read_scene(rt_run *r)
     r->effects.mode = o->effects;
     rt_run_warn(r);
     return true;
+}
+
+bool rt_run_begin(rt_run *r)
+{
+    rt_signals_catch();
+    r->watch = (rt_watch){keep_going, r};
+    rt_scene_init(&r->scene);
+    if (r->options.target == RT_TARGET_DEVICE && !r->options.no_cost)
+        rt_device_list_begin(&r->opening);
+    return read_scene(r);
 }
 
 bool rt_run_choose_devices(rt_run *r)

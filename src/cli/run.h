@@ -29,15 +29,11 @@ typedef struct rt_run {
     rt_stats stats; /* as far as it is known */
 } rt_run;
 
-/* Begins a run whose options are read: signals stop it, and devices open while the scene is read.
- * Whatever comes of it, rt_run_end lets go what the run has opened. */
-void rt_run_begin(rt_run *run);
-void rt_run_end(rt_run *run);
-
 /* Each of these returns false after an error, which is in the run's status. */
 
-/* Reads the scene, as the options change it, and tells the warnings so far. */
-bool rt_run_read_scene(rt_run *run);
+/* Begins a run whose options are there: signals stop it from here on, and while devices open it
+ * reads the scene, as the options change it, and tells the warnings. */
+bool rt_run_begin(rt_run *run);
 
 /* Finds the devices to render on; there is nothing to find for the scalar path. */
 bool rt_run_choose_devices(rt_run *run);
@@ -47,6 +43,9 @@ bool rt_run_build_tree(rt_run *run, const rt_bvh **tree);
 
 /* Renders the scene with the scalar path, which tells its progress. */
 bool rt_run_draw_scalar(rt_run *run, bool in_double, rt_image *image);
+
+/* Lets go what the run has opened, however far it came. */
+void rt_run_end(rt_run *run);
 
 /* Tells the warnings so far, unless the run is quiet, and forgets them. */
 void rt_run_warn(rt_run *run);

@@ -69,6 +69,7 @@ static void good_lines(void **state)
     assert_int_equal(read_line("--hits h s.txt", &o, message, sizeof message), RT_OK);
     assert_int_equal(read_line("--study r s.txt", &o, message, sizeof message), RT_OK);
     assert_string_equal(o.study, "r");
+    assert_int_equal(o.action, RT_ACTION_STUDY);
     assert_true(o.plan.levels[RT_ACCURACY_FAST] && o.plan.levels[RT_ACCURACY_DOUBLE]);
     assert_int_equal(o.plan.sample_count, 4);
     assert_int_equal(o.plan.samples[3], 64);
@@ -95,6 +96,7 @@ static void good_lines(void **state)
                                sizeof message),
                      RT_OK);
     assert_true(o.explain && o.no_cost);
+    assert_int_equal(o.action, RT_ACTION_EXPLAIN);
     assert_int_equal(read_line("--help", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.action, RT_ACTION_HELP);
     assert_int_equal(read_line("--version", &o, message, sizeof message), RT_OK);
