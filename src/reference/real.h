@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "reference/scalar.h"
+#include "scene/scene.h"
 
 #ifdef RT_SCALAR_DOUBLE
 typedef double real;

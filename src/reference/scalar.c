@@ -1,5 +1,7 @@
 /* The pictures of the scalar reference: rays from the camera through the pixels, and the mean of
  * what they bring back. */
+#include "reference/scalar.h"
+
 #include <pthread.h>
 
 #include "common/parallel.h"

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "reference/real.h"
+#include "reference/scalar.h"
 
 #define LEAF_PRIMITIVES 4
 /* Halving 2^31 primitives ends long before. */

@@ -7,6 +7,7 @@
 
 #define RT_SCALAR_DOUBLE
 #include "reference/effects.h"
+#include "reference/scalar.h"
 
 #define PI 3.14159265358979323846
 
