@@ -39,12 +39,10 @@ static rt_render_times times_of(const rt_stats *s)
 
 static json_t *rays_of(const rt_render_times *t)
 {
-    const size_t total = t->primary_rays + t->shadow_rays + t->occlusion_rays + t->reflection_rays +
-                         t->refraction_rays;
     return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(t->primary_rays), "shadow",
                      count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
                      "reflection", count_of(t->reflection_rays), "refraction",
-                     count_of(t->refraction_rays), "total", count_of(total));
+                     count_of(t->refraction_rays), "total", count_of(rt_render_times_rays(t)));
 }
 
 /* What is not reading back counts as the kernels'. */

@@ -87,6 +87,9 @@ bool rt_renderer_occluded(rt_renderer *renderer, const rt_ray *rays, size_t coun
 int rt_renderer_lanes(const rt_renderer *renderer);
 const rt_render_times *rt_renderer_times(const rt_renderer *renderer);
 
+/* Of all kinds together. */
+size_t rt_render_times_rays(const rt_render_times *times);
+
 /* "camera", "trace", ... */
 const char *rt_stage_name(enum rt_stage stage);
 

@@ -6,13 +6,6 @@
 #include "common/clock.h"
 #include "study/parts.h"
 
-/* Of every kind. */
-static size_t rays_of(const rt_render_times *times)
-{
-    return times->primary_rays + times->shadow_rays + times->occlusion_rays +
-           times->reflection_rays + times->refraction_rays;
-}
-
 static double stages_of(const rt_render_times *times)
 {
     double sum = 0.0;
@@ -32,7 +25,7 @@ bool rt_study_draw(study_state *s, rt_renderer *renderer, rt_image *image, const
     t->wall = rt_clock_seconds() - start;
     t->kernel = stages_of(after) - stages_of(&before);
     t->readback = after->readback - before.readback;
-    t->rays = rays_of(after) - rays_of(&before);
+    t->rays = rt_render_times_rays(after) - rt_render_times_rays(&before);
     if (!(t->kernel > 0.0))
         s->study->kernel_is_wall = true;
     if (s->study->kernel_is_wall)

@@ -47,7 +47,7 @@ bool rt_study_plan_read_samples(rt_study_plan *plan, const char *text)
         const size_t length = strcspn(next, ",");
         if (count == RT_STUDY_SAMPLES_LISTED ||
             rt_number_int(next, length, &value) != RT_NUMBER_OK || value < 1 ||
-            value > RT_STUDY_SAMPLES_MAX)
+            value > RT_SAMPLES_MAX)
             return false;
         samples[count++] = (int)value;
         next = next[length] ? next + length + 1 : NULL;

@@ -10,7 +10,6 @@
 #include "scene/effects.h"
 
 #define RT_STUDY_SAMPLES_LISTED 16
-#define RT_STUDY_SAMPLES_MAX 4096 /* what a scene can ask for */
 #define RT_STUDY_REPEATS_MAX 1000
 
 typedef struct rt_study_plan {
