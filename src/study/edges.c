@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "common/parallel.h"
 #include "common/vec3.h"
 #include "reference/scalar.h"
 #include "study/closed_mesh.h"
@@ -106,6 +107,25 @@ static bool make_scene(rt_scene *scene, const rt_study_mesh *mesh, int color, rt
     return good;
 }
 
+/* The triangles of one colour, and their tree where the study goes by trees. */
+typedef struct colored {
+    rt_scene scene;
+    rt_bvh bvh;
+} colored;
+
+static bool make_colored(study_state *s, colored *c, const rt_study_mesh *mesh, int color)
+{
+    c->bvh = (rt_bvh){0};
+    return make_scene(&c->scene, mesh, color, s->status) &&
+           (!s->how->bvh || rt_bvh_build(&c->bvh, &c->scene, rt_parallel_processors(), s->status));
+}
+
+static void clear_colored(colored *c)
+{
+    rt_bvh_clear(&c->bvh);
+    rt_scene_clear(&c->scene);
+}
+
 static void corners_of(const rt_triangle *t, vec3 corners[3])
 {
     corners[0] = (vec3){(double)t->ax, (double)t->ay, (double)t->az};
@@ -179,16 +199,18 @@ static void judge(const walk *w, rt_study_level *level)
             ++*(w->near_crossings[i] < 2 ? &level->leaks : &level->double_hits);
 }
 
-static bool trace_level(study_state *s, const rt_scene scenes[RT_MESH_COLORS], const rt_ray *rays,
+static bool trace_level(study_state *s, const colored parts[RT_MESH_COLORS], const rt_ray *rays,
                         rt_study_level *level)
 {
     walk w;
     bool good = make_walk(&w, rays, EDGE_RAYS, s->status);
     for (int color = 0; good && color < RT_MESH_COLORS; ++color) {
-        if (scenes[color].triangle_count == 0)
+        const rt_scene *scene = &parts[color].scene;
+        const rt_bvh *bvh = s->how->bvh ? &parts[color].bvh : NULL;
+        if (scene->triangle_count == 0)
             continue;
-        rt_renderer *renderer = rt_study_renderer(s, &scenes[color], level->level, 1);
-        good = renderer && follow(s, &w, &scenes[color], renderer);
+        rt_renderer *renderer = rt_study_renderer(s, scene, bvh, level->level, 1);
+        good = renderer && follow(s, &w, scene, renderer);
         rt_renderer_free(renderer);
     }
     if (good)
@@ -201,18 +223,18 @@ static bool trace_mesh(study_state *s, const rt_study_mesh *mesh, const rt_ray *
                        size_t start_count)
 {
     rt_study *study = s->study;
-    rt_scene scenes[RT_MESH_COLORS];
+    colored parts[RT_MESH_COLORS];
     rt_ray *rays = calloc(EDGE_RAYS, sizeof *rays);
     bool good = rays || rt_status_no_memory(s->status, "rays");
     for (int color = 0; color < RT_MESH_COLORS; ++color)
-        good = make_scene(&scenes[color], mesh, color, s->status) && good;
+        good = make_colored(s, &parts[color], mesh, color) && good;
     for (uint32_t i = 0; good && i < EDGE_RAYS; ++i)
         rays[i] = edge_ray(mesh, starts, start_count, i);
     for (size_t i = 0; good && i < study->level_count; ++i)
         good = rt_study_tick(s, (double)i / (double)study->level_count) &&
-               trace_level(s, scenes, rays, &study->levels[i]);
+               trace_level(s, parts, rays, &study->levels[i]);
     for (int color = 0; color < RT_MESH_COLORS; ++color)
-        rt_scene_clear(&scenes[color]);
+        clear_colored(&parts[color]);
     free(rays);
     return good;
 }

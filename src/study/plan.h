@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "bvh/bvh.h"
 #include "common/accuracy.h"
 #include "opencl/device.h"
 #include "scene/effects.h"
@@ -31,8 +32,8 @@ bool rt_study_plan_read_samples(rt_study_plan *plan, const char *text);
 /* How the studied pictures are rendered. */
 typedef struct rt_study_how {
     const rt_device *device;
-    bool has_tree;
-    int lanes, tile; /* as in rt_render_options */
+    const rt_bvh *bvh; /* of the scene, or NULL to try every primitive */
+    int lanes, tile;   /* as in rt_render_options */
     enum rt_effects_mode effects;
 } rt_study_how;
 

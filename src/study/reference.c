@@ -83,7 +83,8 @@ bool rt_study_draw_reference(study_state *s, int samples, rt_image *image)
         const rt_scene scene = at_samples(s, samples);
         return rt_scalar_double_render(&scene, image, &watch, s->status);
     }
-    rt_renderer *renderer = rt_study_renderer(s, s->scene, s->study->reference_level, samples);
+    rt_renderer *renderer =
+        rt_study_renderer(s, s->scene, s->how->bvh, s->study->reference_level, samples);
     const bool good = renderer && rt_renderer_draw(renderer, image, &watch, s->status);
     rt_renderer_free(renderer);
     return good;

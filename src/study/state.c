@@ -2,9 +2,6 @@
 
 #include <string.h>
 
-#include "bvh/bvh.h"
-#include "common/parallel.h"
-
 void rt_study_begin_part(study_state *s, double seconds)
 {
     s->done += s->part;
@@ -28,8 +25,8 @@ rt_watch rt_study_watch(study_state *s)
     return (rt_watch){tick, s};
 }
 
-rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, enum rt_accuracy level,
-                               int samples)
+rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_bvh *bvh,
+                               enum rt_accuracy level, int samples)
 {
     rt_scene copy = *scene; /* the arrays stay the caller's */
     copy.accuracy = level;
@@ -38,13 +35,7 @@ rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, enum rt_ac
     effects.mode = s->how->effects;
     const rt_render_options options = {
         .lanes = s->how->lanes, .tile = s->how->tile, .effects = &effects};
-    rt_bvh bvh = {0};
-    if (s->how->has_tree && !rt_bvh_build(&bvh, &copy, rt_parallel_processors(), s->status))
-        return NULL;
-    rt_renderer *renderer =
-        rt_renderer_new(s->how->device, &copy, s->how->has_tree ? &bvh : NULL, &options, s->status);
-    rt_bvh_clear(&bvh);
-    return renderer;
+    return rt_renderer_new(s->how->device, &copy, bvh, &options, s->status);
 }
 
 bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderers)
@@ -53,7 +44,8 @@ bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderer
     for (size_t i = 0; i < s->study->level_count; ++i) {
         if (!rt_study_tick(s, 0.0))
             return false;
-        renderers[i] = rt_study_renderer(s, s->scene, s->study->levels[i].level, samples);
+        renderers[i] =
+            rt_study_renderer(s, s->scene, s->how->bvh, s->study->levels[i].level, samples);
         if (!renderers[i])
             return false;
     }

@@ -26,9 +26,9 @@ bool rt_study_tick(study_state *s, double done);
 /* The same as a watch. */
 rt_watch rt_study_watch(study_state *s);
 
-/* A renderer of `scene` at that level and count of samples. */
-rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, enum rt_accuracy level,
-                               int samples);
+/* A renderer of `scene`, by its tree or NULL, at that level and count of samples. */
+rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_bvh *bvh,
+                               enum rt_accuracy level, int samples);
 
 /* One renderer a level of the plan, in order, of the scene studied; the rest of the array, which
  * has RT_ACCURACY_COUNT, is NULL. To be freed after a failure too. */
