@@ -173,8 +173,8 @@ check-asan: $(BUILD)/rt $(TESTS)
 
 # ---- Checks ----
 
-# clang-tidy is by far the slowest, hence last and several at a time; with -quiet it still counts
-# on standard error what it has suppressed.
+# clang-tidy is by far the slowest, hence last, and as many at a time as there are processors. With
+# --quiet it still counts on standard error what it has suppressed.
 .PHONY: lint check-kernels
 lint: deps deps-lint ## the folders' order, documents, clang-format, cppcheck and clang-tidy
 	$(SRC)tests/links
@@ -199,7 +199,7 @@ BENCH_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(filter-out \
                  $(BENCH_NAMES:%=$(SRC)tests/bench/%.c),$(wildcard $(SRC)tests/bench/*.c)))
 
 .PHONY: bench bench-run
-bench: deps deps-bench ## measures beside Embree, Tachyon and POV-Ray: hours
+bench: deps-bench ## measures beside Embree, Tachyon and POV-Ray: hours
 	$(remake) bench-run
 
 # A measurement that fails does not hide the others.
@@ -251,13 +251,13 @@ endef
 deps: ## installs what building and testing need
 	$(call install_missing,$(PACKAGES))
 
-deps-lint:
+deps-lint: deps
 	$(call install_missing,$(PACKAGES_LINT))
 
 deps-clang:
 	$(call install_missing,$(PACKAGES_CLANG))
 
-deps-bench:
+deps-bench: deps
 	$(call install_missing,$(PACKAGES_BENCH))
 
 # ---- Installation ----

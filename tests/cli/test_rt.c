@@ -52,7 +52,7 @@ static void from_any_folder_by_pipes(void **state)
                          "cmp $T/file.png $T/pipe.png"),
                      0);
     assert_int_equal(run("rt=$(realpath $RT) && cp scenes/sphere.txt $T/s.txt && cd $T &&"
-                         "$rt -q --size 32x32 s.txt here.png && cmp here.png file.png"),
+                         "\"$rt\" -q --size 32x32 s.txt here.png && cmp here.png file.png"),
                      0);
 }
 
