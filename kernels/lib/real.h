@@ -16,12 +16,14 @@
 #define NUMBER_MAX DBL_MAX
 #define RT_HALF_ULP 0x1p-53
 #define SIGN_BIT 0x8000000000000000L
+#define EXPONENT_BITS 0x7ff0000000000000L
 #else
 #define RT_NUMBER float
 #define RT_BITS int
 #define NUMBER_MAX FLT_MAX
 #define RT_HALF_ULP 0x1p-24f
 #define SIGN_BIT 0x80000000
+#define EXPONENT_BITS 0x7f800000
 #endif
 typedef RT_NUMBER number;
 
@@ -169,8 +171,9 @@ typedef struct real3 {
  * By way of double the second rounding is harmless, because 53 bits are more than twice 24 and two
  * (Figueroa 1995). By fma: a reciprocal and a quotient within a few ulp become correctly rounded
  * after the residual is added back (Markstein 1990), as long as nothing leaves the range of normal
- * numbers. In double OpenCL C itself asks for it. */
-#if RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE
+ * numbers. In double OpenCL C itself asks for it; fast takes what the device does, since a residual
+ * that is NaN cannot be told under relaxed math. */
+#if RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE || RT_ACCURACY == RT_FAST
 #define DIVIDE(a, b) ((a) / (b))
 #define ROOT(a) sqrt(a)
 #elif RT_ROUNDING == 1

@@ -10,7 +10,7 @@ typedef struct vec3 {
 #if RT_LANES == 1
 #define DIVIDE_1(a, b) DIVIDE(a, b)
 #define ROOT_1(a) ROOT(a)
-#elif RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE
+#elif RT_ROUNDING == 0 || RT_ACCURACY == RT_DOUBLE || RT_ACCURACY == RT_FAST
 #define DIVIDE_1(a, b) ((a) / (b))
 #define ROOT_1(a) sqrt(a)
 #elif RT_ROUNDING == 1
@@ -60,4 +60,17 @@ INLINE void make_unit(vec3 *v)
 {
     const vec3 moderate = SCALE(*v, moderating_factor(*v));
     *v = SCALE(moderate, RECIPROCAL_LENGTH(moderate));
+}
+
+/* The same of a vector that may be zero, which stays as it is; returns whether it has a direction.
+ * That is decided before the division: relaxed math takes for granted that no number is NaN or
+ * infinite, and makes a test of the quotient true. */
+INLINE int make_unit_if_any(vec3 *v)
+{
+    const vec3 moderate = SCALE(*v, moderating_factor(*v));
+    const number squared = DOT(moderate, moderate);
+    const int has_direction = squared > (number)0.0f;
+    const number factor = DIVIDE_1(1.0f, ROOT_1(has_direction ? squared : (number)1.0f));
+    *v = SCALE(moderate, factor);
+    return has_direction;
 }

@@ -121,9 +121,9 @@ INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *nor
     const vec3 nc = {n[6], n[7], n[8]};
     vec3 unit = {fma(v, nc.x, fma(u, nb.x, w * na.x)), fma(v, nc.y, fma(u, nb.y, w * na.y)),
                  fma(v, nc.z, fma(u, nb.z, w * na.z))};
-    make_unit(&unit);
+    const int has_direction = make_unit_if_any(&unit);
     const number side = DOT(unit, *normal);
-    if (isfinite(side))
+    if (has_direction)
         *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
 }
 #endif

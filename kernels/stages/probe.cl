@@ -99,8 +99,7 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
     vec3 place = {light->x, light->y, light->z};
     const number away = -light->w;
     l = ADD_SCALED(s.point, away, place);
-    make_unit(&l);
-    const int on = is_hit & (isfinite(l.x) != 0);
+    const int on = make_unit_if_any(&l) & is_hit;
     leave(&s, &l, &origin);
 #if RT_SHADOWS == 2
     if (light->radius > 0.0f) {

@@ -32,8 +32,10 @@ INLINE number highlight(number cosine, int exponent, number shininess)
 {
     const number whole = power_whole(cosine, exponent);
 #if RT_SHININESS_FRACTION
-    /* 3 ulp each for log2 and exp2: at most 1e-5 of the result wherever it is above 1e-6. */
-    return exponent >= 0 ? whole : exp2(shininess * log2(cosine));
+    /* 3 ulp each for log2 and exp2: at most 1e-5 of the result wherever it is above 1e-6. Not by
+     * way of an infinite logarithm, of which relaxed math takes for granted that there is none. */
+    const number power = cosine > (number)0.0f ? exp2(shininess * log2(cosine)) : (number)0.0f;
+    return exponent >= 0 ? whole : power;
 #else
     return whole;
 #endif
@@ -100,13 +102,13 @@ INLINE void sky(const shading *w, size_t i, vec3 *color)
 }
 
 #if RT_SPHERES || RT_TRIANGLES
-/* The vector toward a light, unit; not finite for a light exactly at the point. */
-INLINE void toward_light(__global const rt_light *light, vec3 point, vec3 *l)
+/* The vector toward a light, unit. Returns 0 for a light exactly at the point, which has none. */
+INLINE int toward_light(__global const rt_light *light, vec3 point, vec3 *l)
 {
     const vec3 place = {light->x, light->y, light->z};
     const number w = -light->w;
     *l = ADD_SCALED(point, w, place);
-    make_unit(l);
+    return make_unit_if_any(l);
 }
 
 /* What one light adds at a surface of a material whose kd is given; `free` is the part of it that
@@ -116,8 +118,8 @@ INLINE void add_light(__global const rt_light *light, __global const rt_material
 {
     const vec3 normal = s->normal;
     vec3 l;
-    toward_light(light, s->point, &l);
-    const number lit = isfinite(l.x) ? 1.0f : 0.0f; /* else it has no direction and gives nothing */
+    const int has_direction = toward_light(light, s->point, &l);
+    const number lit = has_direction ? 1.0f : 0.0f; /* without one it gives nothing */
     const number n_dot_l = DOT(normal, l);
     const number twice = 2.0f * n_dot_l;
     const vec3 mirrored = {fma(twice, normal.x, -l.x), fma(twice, normal.y, -l.y),

@@ -9,6 +9,10 @@ INLINE real finite_reciprocal(real d)
     return LESSER(GREATER(inverse, (real)-NUMBER_MAX), (real)NUMBER_MAX);
 }
 
+/* The exponent's bits: all set, and so the greatest, for infinities and NaN alone. */
+#define EXPONENT_OF(v) (AS_MASK(v) & (mask)EXPONENT_BITS)
+#define MOST_EXPONENT(v) max(max(EXPONENT_OF((v).x), EXPONENT_OF((v).y)), EXPONENT_OF((v).z))
+
 /* Rays from the array; t is their tmax, or -infinity for rays that cannot hit anything because
  * something in them is not finite. */
 INLINE void load_rays(__global const number *source, size_t step, rays *r, hits *h)
@@ -27,12 +31,11 @@ INLINE void load_rays(__global const number *source, size_t step, rays *r, hits 
     r->dd = DOT(r->direction, r->direction);
     r->inv_dd = DIVIDE((real)1.0f, r->dd);
 #endif
-    /* Zero times anything finite is zero, anything else is NaN. */
-    const real zero = (real)0.0f;
-    const real nought = r->origin.x * zero + r->origin.y * zero + r->origin.z * zero +
-                        r->direction.x * zero + r->direction.y * zero + r->direction.z * zero;
+    /* By bits: relaxed math takes for granted that numbers are finite, and leaves out a test by
+     * arithmetic. */
+    const mask exponent = max(MOST_EXPONENT(r->origin), MOST_EXPONENT(r->direction));
     const real tmax = LOAD_REAL(source + RT_RAY_TMAX * step);
-    mask lawful = MASK(nought == (real)0.0f) & MASK(tmax > r->tmin);
+    mask lawful = MASK(exponent < (mask)EXPONENT_BITS) & MASK(tmax > r->tmin);
 #if RT_WATERTIGHT
     lawful = lawful & set_up_shear(r);
 #endif

@@ -91,7 +91,7 @@ static void touching(void **state)
 {
     (void)state;
     static const hard_naive no_guard = {
-        .name = "0 / 0", .file = "shade.cl", .from = "isfinite(l.x) ? 1.0f : 0.0f", .to = "1.0f"};
+        .name = "no test for 0", .file = "shade.cl", .from = "has_direction ? 1.0f : 0.0f", .to = "1.0f"};
     const hard_case c = {.row = 25,
                          .name = "a light at the point itself",
                          .figures = {{"off the ambient light by", {0, 0, 0, 0}}},
@@ -139,12 +139,14 @@ static void normals(void **state)
                                        .from = "SCALE(unit, side < 0.0f ? -1.0f : 1.0f)",
                                        .to = "unit"};
     static const hard_naive no_guard = {
-        .name = "no test for 0", .file = "surface.cl", .from = "if (isfinite(side))", .to = ""};
+        .name = "no test for 0", .file = "surface.cl", .from = "if (has_direction)", .to = ""};
+    /* At fast the flat picture's program and the smooth one's may round a quotient differently, by
+     * the processor's own estimate of a reciprocal, and an ulp can be a step. */
     const hard_case c = {.row = 30,
                          .name = "vertex normals n, -n, 0",
-                         .figures = {{"n is off the geometric normal by steps", {0, 0, 0, 0}},
-                                     {"-n is off it by steps", {0, 0, 0, 0}},
-                                     {"0 is off it by steps", {0, 0, 0, 0}}},
+                         .figures = {{"n is off the geometric normal by steps", {1, 0, 0, 0}},
+                                     {"-n is off it by steps", {1, 0, 0, 0}},
+                                     {"0 is off it by steps", {1, 0, 0, 0}}},
                          .naives = {&no_side, &no_guard},
                          .measure = measure_normals};
     hard_hold(&c);
