@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 #include "scene/camera.h"
 #include "scene_text/reader.h"
@@ -284,8 +285,23 @@ static void angles_that_are_none(void **state)
 #define LARGEST 16384
 #define TAIL 3 /* tiles that are rendered, the picture's last */
 
-/* The largest picture: 2^28 pixels, of which only the last tiles are rendered. Memory that is not
- * touched is not there. */
+/* Room for so much a pixel of the largest picture. Memory that is not touched is not there, and is
+ * not asked for either: a machine may have less than this. */
+static void *reserve(size_t size)
+{
+    void *room = mmap(NULL, (size_t)LARGEST * LARGEST * size, PROT_READ | PROT_WRITE,
+                      MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    assert_true(room != MAP_FAILED);
+    return room;
+}
+
+static void release(rt_image *image)
+{
+    munmap(image->rgb, (size_t)LARGEST * LARGEST * 3 * sizeof *image->rgb);
+    munmap(image->hits, (size_t)LARGEST * LARGEST * sizeof *image->hits);
+}
+
+/* The largest picture: 2^28 pixels, of which only the last tiles are rendered. */
 static void draw_tail(const hard_way *way, rt_scene *scene, int side, rt_image *image)
 {
     if (way->naive)
@@ -295,9 +311,8 @@ static void draw_tail(const hard_way *way, rt_scene *scene, int side, rt_image *
     rt_tiles tiles;
     scene->accuracy = way->level;
     *image = (rt_image){.width = LARGEST, .height = LARGEST};
-    image->rgb = calloc((size_t)LARGEST * LARGEST, 3 * sizeof *image->rgb);
-    image->hits = calloc((size_t)LARGEST * LARGEST, sizeof *image->hits);
-    assert_true(image->rgb && image->hits);
+    image->rgb = reserve(3 * sizeof *image->rgb);
+    image->hits = reserve(sizeof *image->hits);
     rt_renderer *renderer = test_renderer(scene, &options);
     test_restore_kernels();
     rt_tiles_init(&tiles, LARGEST, LARGEST, side, 1);
@@ -337,8 +352,8 @@ static void measure_largest(const hard_way *way, const void *of, double figures[
         figures[1] += image.hits[at].primitive != expected.primitive ||
                       !(fabsf(image.hits[at].u - expected.u) < 1e-5f);
     }
-    rt_image_clear(&image);
-    rt_image_clear(&other);
+    release(&image);
+    release(&other);
     rt_scene_clear(&scene);
 }
 
@@ -376,8 +391,15 @@ static void measure_one(const hard_way *way, const void *of, double figures[])
         hard_draw(way, &scene, &images[i]);
         rt_scene_clear(&scene);
     }
-    figures[0] = memcmp(&images[0].hits[0], &images[1].hits[4], sizeof(rt_hit)) != 0;
+    const rt_hit *one = &images[0].hits[0], *middle = &images[1].hits[4];
+    figures[0] = memcmp(one, middle, sizeof *one) != 0;
     figures[1] = memcmp(images[0].rgb, images[1].rgb + 12, 3 * sizeof(float)) != 0;
+    /* One ray goes with those beside it and the other alone: two loops, in which relaxed math may
+     * round quotients differently, as the processor's estimate of a reciprocal has it. */
+    if (way->level == RT_ACCURACY_FAST) {
+        figures[0] = one->primitive != middle->primitive || !(fabsf(one->t - middle->t) < 1e-5f);
+        figures[1] = !(fabsf(images[0].rgb[0] - images[1].rgb[12]) < 1e-5f);
+    }
     rt_image_clear(&images[0]);
     rt_image_clear(&images[1]);
 }
