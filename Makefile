@@ -137,15 +137,22 @@ check: rt $(TESTS) ## builds and runs every test, and looks for no packages
 	@$(SRC)tests/links
 	@$(in_source) RT=$(call from_source,./rt) tests/run $(call from_source,$(TESTS))
 
-HARD_TESTS := $(filter $(BUILD)/tests/hard/%,$(TESTS))
+# The long forms: the hard cases with 40 times the rays, and every variant of the kernels.
+LONG_TESTS = $(filter $(BUILD)/tests/hard/% $(patsubst $(SRC)%.c,$(BUILD)/%,\
+             $(shell grep -l test_is_long $(SRC)tests/*/test_*.c)),$(TESTS))
 .PHONY: test-hard check-hard
-test-hard: deps ## runs the hard cases with ten times the rays: minutes
+test-hard: deps ## runs the long forms: hard cases with 10 M rays, every variant of the kernels
 	$(remake) check-hard
 
-check-hard: rt $(HARD_TESTS)
-	@$(in_source) RT=$(call from_source,./rt) RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
-	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(HARD_TESTS))
+check-hard: rt $(LONG_TESTS)
+	@$(in_source) RT=$(call from_source,./rt) RT_TEST_LONG=1 RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
+	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(LONG_TESTS))
 	@$(in_source) RT=$(call from_source,./rt) tests/hard/table $(call from_source,$(BUILD)/hard.md)
+
+.PHONY: test-processors
+test-processors: deps deps-processors ## renders as processors with AVX2 and with SSE4 alone do, by qemu
+	$(remake) rt
+	@$(in_source) tests/processors $(call from_source,./rt) $(call from_source,$(BUILD)/processors)
 
 $(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
@@ -230,6 +237,7 @@ PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjans
             libdeflate-dev libcmocka-dev libgmp-dev pkg-config
 PACKAGES_LINT := clang-format clang-tidy cppcheck
 PACKAGES_CLANG := clang
+PACKAGES_PROCESSORS := qemu-user
 PACKAGES_BENCH := libembree-dev tachyon povray
 
 # Installs the packages that are named and not there; silent when all are.
@@ -247,7 +255,7 @@ define install_missing
 	fi
 endef
 
-.PHONY: deps deps-lint deps-clang deps-bench
+.PHONY: deps deps-lint deps-clang deps-processors deps-bench
 deps: ## installs what building and testing need
 	$(call install_missing,$(PACKAGES))
 
@@ -256,6 +264,9 @@ deps-lint: deps
 
 deps-clang:
 	$(call install_missing,$(PACKAGES_CLANG))
+
+deps-processors:
+	$(call install_missing,$(PACKAGES_PROCESSORS))
 
 deps-bench: deps
 	$(call install_missing,$(PACKAGES_BENCH))

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RAYS_DEFAULT 1000000
+#define RAYS_DEFAULT 250000
 /* Naive variants hold every ray against every primitive, in plain C. */
 #define RAYS_NAIVE 20000
 

@@ -55,7 +55,7 @@ void hard_hold(const hard_case *c);
 /* Ends a test: fails it where a figure has broken its gate, or a naive variant has not. */
 void hard_finish(void);
 
-/* Rays for a measurement at this way: RT_HARD_RAYS, 1 M if not set, where a level promises
+/* Rays for a measurement at this way: RT_HARD_RAYS, 250,000 if not set, where a level promises
  * something; a tenth of it where figures are only told; naive variants, which are slow, get as many
  * as they can do in a moment. */
 size_t hard_rays(const hard_way *way);

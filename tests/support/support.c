@@ -31,6 +31,12 @@ void test_good(bool good, const rt_status *status, const char *file, int line)
     _fail(file, line);
 }
 
+bool test_is_long(void)
+{
+    const char *text = getenv("RT_TEST_LONG");
+    return text && *text;
+}
+
 uint64_t test_random_bits(test_random *random)
 {
     uint64_t z = random->state += UINT64_C(0x9e3779b97f4a7c15);

@@ -25,6 +25,10 @@ void test_near(double actual, double expected, double tolerance, const char *fil
 #define assert_good(good, status) test_good(good, status, __FILE__, __LINE__)
 void test_good(bool good, const rt_status *status, const char *file, int line);
 
+/* Whether the long forms are wanted (RT_TEST_LONG, which make test-hard sets). What takes long is to
+ * compile: short forms leave out programs that show what others show too. */
+bool test_is_long(void);
+
 /* splitmix64 (Steele, Lea and Flood 2014). */
 typedef struct test_random {
     uint64_t state;
