@@ -146,7 +146,8 @@ static void a_difference_is_5(void **state)
     test_restore_kernels();
 }
 
-/* What takes the scalar path minutes, and seconds with a hundred processors; a row takes no time. */
+/* What takes the scalar path minutes, and seconds with a hundred processors; a row takes no time.
+ */
 static void write_long_scene(void)
 {
     assert_int_equal(run("sed 's/^image .*/image width 1000 height 16000 samples 64/' "

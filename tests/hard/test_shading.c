@@ -90,8 +90,10 @@ static void measure_touching(const hard_way *way, const void *of, double figures
 static void touching(void **state)
 {
     (void)state;
-    static const hard_naive no_guard = {
-        .name = "no test for 0", .file = "shade.cl", .from = "has_direction ? 1.0f : 0.0f", .to = "1.0f"};
+    static const hard_naive no_guard = {.name = "no test for 0",
+                                        .file = "shade.cl",
+                                        .from = "has_direction ? 1.0f : 0.0f",
+                                        .to = "1.0f"};
     const hard_case c = {.row = 25,
                          .name = "a light at the point itself",
                          .figures = {{"off the ambient light by", {0, 0, 0, 0}}},

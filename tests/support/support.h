@@ -25,8 +25,8 @@ void test_near(double actual, double expected, double tolerance, const char *fil
 #define assert_good(good, status) test_good(good, status, __FILE__, __LINE__)
 void test_good(bool good, const rt_status *status, const char *file, int line);
 
-/* Whether the long forms are wanted (RT_TEST_LONG, which make test-hard sets). What takes long is to
- * compile: short forms leave out programs that show what others show too. */
+/* Whether the long forms are wanted (RT_TEST_LONG, which make test-hard sets). Compiling is what
+ * takes long: short forms leave out programs that show what others show too. */
 bool test_is_long(void);
 
 /* splitmix64 (Steele, Lea and Flood 2014). */
@@ -66,8 +66,8 @@ char *test_read_file(const char *path, size_t *length);
 /* Runs a shell command; returns its exit code. Standard error goes to `errors`[0..size) where that
  * is not NULL; standard output goes where the command says. In the command, $RT is the program. */
 int test_run(const char *command, char *errors, size_t size);
-/* Within a command, with $T the test folder: waits, a minute at most, until standard error tells how
- * far something is. How soon that is depends on the machine. */
+/* Within a command, with $T the test folder: waits, a minute at most, until standard error tells
+ * how far something is. How soon that is depends on the machine. */
 #define TEST_WAIT_FOR_PROGRESS                                                                     \
     "for i in $(seq 600); do grep -q ' gone' $T/errors.log && break; sleep 0.1; done"
 
