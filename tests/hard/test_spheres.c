@@ -84,8 +84,8 @@ static void far_spheres(void **state)
     static const far_sphere subjects[] = {{1.0f, 1e3f},  {1.0f, 1e4f},  {1e-3f, 1e4f},
                                           {1e-3f, 1e5f}, {1e-3f, 1e6f}, {1e3f, 1e6f}};
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) {
-        /* At fast the processor's own estimate of a reciprocal comes in: a hundred in a million are
-         * 6 rays, and one of 12 bits, made better once, has brought 6. */
+        /* A hundred in a million are 6 rays, as many as the arithmetic of float brings; at fast the
+         * processor's own estimate of a reciprocal comes in too. */
         const double gate = i < 2 ? 100.0 : TOLD, fast = i < 2 ? 500.0 : TOLD;
         char name[64];
         snprintf(name, sizeof name, "sphere of radius %g at %g", (double)subjects[i].radius,

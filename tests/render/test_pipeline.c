@@ -198,7 +198,7 @@ static void all_effects_compiled_in(void **state)
     }
     glob_t files;
     assert_int_equal(glob("scenes/*.txt", 0, NULL, &files), 0);
-    for (size_t i = 0; i < files.gl_pathc; ++i) {
+    for (size_t i = 0; i < files.gl_pathc; i += test_is_long() ? 1 : 3) {
         test_scene_file(&scene, files.gl_pathv[i]);
         scene.width = 64;
         scene.height = 48;
