@@ -7,6 +7,7 @@
 
 #include "common/json.h"
 #include "study/plot.h"
+#include "study/table.h"
 #include "study/verdict.h"
 
 static bool open_one(rt_output *output, const char *report, const char *extension,

@@ -26,9 +26,5 @@ bool rt_study_files_write(rt_study_files *files, const rt_study *study, const rt
 void rt_study_files_discard(rt_study_files *files);
 
 bool rt_study_write_json(const rt_study *study, rt_output *output, rt_status *status);
-bool rt_study_write_csv(const rt_study *study, rt_output *output, rt_status *status);
-/* `plot` is the name of the picture to show, or NULL. */
-bool rt_study_write_md(const rt_study *study, const char *plot, rt_output *output,
-                       rt_status *status);
 
 #endif

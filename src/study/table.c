@@ -1,11 +1,11 @@
-/* A study as tables: comma-separated values for programs, Markdown for readers. */
 #define _GNU_SOURCE
+#include "study/table.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/report.h"
 #include "study/verdict.h"
 
 /* Text written by `print` to an output. */

@@ -12,6 +12,7 @@
 #include "study/closed_mesh.h"
 #include "study/plot.h"
 #include "study/report.h"
+#include "study/table.h"
 #include "study/verdict.h"
 
 static char errors[8192];
