@@ -301,7 +301,7 @@ install-strip: install
 
 uninstall: ## removes what make install put there
 	rm -f $(INSTALLED:%=$(DESTDIR)%)
-	-@rmdir $(DESTDIR)$(docdir)/scenes $(DESTDIR)$(docdir) 2>/dev/null
+	@rmdir $(DESTDIR)$(docdir)/scenes $(DESTDIR)$(docdir) 2>/dev/null || :
 
 # ---- The rest ----
 
@@ -313,7 +313,9 @@ clean: ## removes what was made
 	rm -rf $(BUILD) rt icecream.png rt-$(VERSION).tar.gz
 
 help: ## prints this
+	@echo 'make TARGET [NAME=VALUE]...'
 	@sed -n 's/^\([a-z-]*\):.*## /\1 /p' $(MAKEFILE) | \
-	    while read -r target text; do printf '  %-14s %s\n' "$$target" "$$text"; done
+	    while read -r target text; do printf '  %-16s %s\n' "$$target" "$$text"; done
+	@echo 'Names: CC, CFLAGS and their like, WERROR=-Werror, V=1 to see commands, BUILD; README.md has all.'
 
 -include $(wildcard $(BUILD)/*.d $(BUILD)/*/*.d $(BUILD)/tests/*/*.d)
