@@ -184,13 +184,13 @@ check-asan: $(BUILD)/rt $(TESTS)
 # --quiet it still counts on standard error what it has suppressed.
 .PHONY: lint check-kernels
 lint: deps deps-lint ## the folders' order, documents, clang-format, cppcheck and clang-tidy
-	$(SRC)tests/links
-	$(SRC)tests/arrows $(SOURCES) $(HEADERS)
-	clang-format --dry-run -Werror $(SOURCES) $(HEADERS) $(wildcard $(SRC)tests/*/*.[ch]) $(KERNELS)
-	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
+	$(Q)$(SRC)tests/links
+	$(Q)$(SRC)tests/arrows $(SOURCES) $(HEADERS)
+	$(Q)clang-format --dry-run -Werror $(SOURCES) $(HEADERS) $(wildcard $(SRC)tests/*/*.[ch]) $(KERNELS)
+	$(Q)cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
 	    --suppress=missingIncludeSystem --error-exitcode=1 -I$(SRC)src -I$(SRC). -I$(SRC)tests \
 	    $(SRC)src $(SRC)tests/bench
-	printf '%s\n' $(SOURCES) | xargs -n 1 -P $$(nproc) sh -c \
+	$(Q)printf '%s\n' $(SOURCES) | xargs -n 1 -P $$(nproc) sh -c \
 	    'clang-tidy --quiet "$$0" -- -std=c11 -I$(SRC)src -I$(SRC). $(PKG_CFLAGS) 2>/dev/null'
 
 check-kernels: deps-clang ## compiles every variant of the kernels with clang, warnings as errors
@@ -255,6 +255,7 @@ define install_missing
 	fi
 endef
 
+# One after another, since apt-get runs once at a time.
 .PHONY: deps deps-lint deps-clang deps-processors deps-bench
 deps: ## installs what building and testing need
 	$(call install_missing,$(PACKAGES))
@@ -262,10 +263,10 @@ deps: ## installs what building and testing need
 deps-lint: deps
 	$(call install_missing,$(PACKAGES_LINT))
 
-deps-clang:
+deps-clang: deps
 	$(call install_missing,$(PACKAGES_CLANG))
 
-deps-processors:
+deps-processors: deps
 	$(call install_missing,$(PACKAGES_PROCESSORS))
 
 deps-bench: deps
