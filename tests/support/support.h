@@ -66,10 +66,10 @@ char *test_read_file(const char *path, size_t *length);
 /* Runs a shell command; returns its exit code. Standard error goes to `errors`[0..size) where that
  * is not NULL; standard output goes where the command says. In the command, $RT is the program. */
 int test_run(const char *command, char *errors, size_t size);
-/* Within a command, with $T the test folder: waits, a minute at most, until standard error tells
+/* Within a command, with $T the test folder: waits, minutes if it must, until standard error tells
  * how far something is. How soon that is depends on the machine. */
 #define TEST_WAIT_FOR_PROGRESS                                                                     \
-    "for i in $(seq 600); do grep -q ' gone' $T/errors.log && break; sleep 0.1; done"
+    "for i in $(seq 3000); do grep -q ' gone' $T/errors.log && break; sleep 0.1; done"
 
 /* Copies the kernels to a fresh folder with `from` replaced by `to` in one file, which must contain
  * it, and makes RT_KERNELS name that folder until test_restore_kernels. */
