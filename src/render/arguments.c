@@ -69,12 +69,12 @@ static cl_int flags_of(const rt_renderer *r)
                  {RT_EFFECT_TEXTURE, RT_FLAG_TEXTURE},
                  {RT_EFFECT_HARD_SHADOWS, RT_FLAG_SHADOWS},
                  {RT_EFFECT_SOFT_SHADOWS, RT_FLAG_SHADOWS},
-                 {RT_EFFECT_ABSORPTION, RT_FLAG_ABSORB},
-                 {RT_EFFECT_OCCLUSION, RT_FLAG_AMBIENT_OCCLUSION},
+                 {RT_EFFECT_ABSORB, RT_FLAG_ABSORB},
+                 {RT_EFFECT_AMBIENT_OCCLUSION, RT_FLAG_AMBIENT_OCCLUSION},
                  {RT_EFFECT_FOG, RT_FLAG_FOG},
                  {RT_EFFECT_GRADIENT, RT_FLAG_GRADIENT},
-                 {RT_EFFECT_ANTIALIASING, RT_FLAG_ANTIALIAS},
-                 {RT_EFFECT_DEPTH_OF_FIELD, RT_FLAG_LENS}};
+                 {RT_EFFECT_ANTIALIAS, RT_FLAG_ANTIALIAS},
+                 {RT_EFFECT_LENS, RT_FLAG_LENS}};
     cl_int bits = 0;
     for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i)
         if (r->effects.on[flags[i].effect])

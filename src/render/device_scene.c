@@ -99,8 +99,7 @@ bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_comm
                   &b->materials, status) &&
            upload(u, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights,
                   status) &&
-           (!rt_effects_has(effects, RT_EFFECT_SMOOTH_NORMALS) ||
-            upload_normals(u, scene, status)) &&
+           (!rt_effects_has(effects, RT_EFFECT_SMOOTH) || upload_normals(u, scene, status)) &&
            (!rt_effects_has(effects, RT_EFFECT_TEXTURE) || upload_textures(u, scene, status));
 }
 

@@ -76,7 +76,7 @@ static bool probe_all(passes *p)
         if (r->lights[k].shadow && !probe(p, k, r->lights[k].samples, RT_STAGE_SHADOW_RAYS,
                                           RT_STAGE_SHADOW, RT_STAGE_SHADOW_TALLY))
             return false;
-    return !r->effects.on[RT_EFFECT_OCCLUSION] ||
+    return !r->effects.on[RT_EFFECT_AMBIENT_OCCLUSION] ||
            probe(p, r->light_count, r->occlusion_samples, RT_STAGE_AMBIENT_RAYS, RT_STAGE_AMBIENT,
                  RT_STAGE_AMBIENT_TALLY);
 }
@@ -120,7 +120,7 @@ static bool pack(passes *p)
 /* Not whether the kernels could: whether the scene calls for it. */
 static bool goes_on(const rt_renderer *r)
 {
-    return r->effects.on[RT_EFFECT_REFLECTION] || r->effects.on[RT_EFFECT_REFRACTION];
+    return r->effects.on[RT_EFFECT_REFLECT] || r->effects.on[RT_EFFECT_REFRACT];
 }
 
 static bool interrupted(passes *p, const rt_watch *watch, double done)

@@ -41,7 +41,7 @@ bool rt_renderer_has(const rt_renderer *r, enum rt_effect effect)
 
 bool rt_renderer_has_next(const rt_renderer *r)
 {
-    return rt_renderer_has(r, RT_EFFECT_REFLECTION) || rt_renderer_has(r, RT_EFFECT_REFRACTION);
+    return rt_renderer_has(r, RT_EFFECT_REFLECT) || rt_renderer_has(r, RT_EFFECT_REFRACT);
 }
 
 static bool has_shadows(const rt_renderer *r)
@@ -51,7 +51,7 @@ static bool has_shadows(const rt_renderer *r)
 
 bool rt_renderer_has_probes(const rt_renderer *r)
 {
-    return has_shadows(r) || rt_renderer_has(r, RT_EFFECT_OCCLUSION);
+    return has_shadows(r) || rt_renderer_has(r, RT_EFFECT_AMBIENT_OCCLUSION);
 }
 
 static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
@@ -64,7 +64,7 @@ static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
     case RT_STAGE_SHADOW_RAYS:
         return has_shadows(r);
     case RT_STAGE_AMBIENT_RAYS:
-        return rt_renderer_has(r, RT_EFFECT_OCCLUSION);
+        return rt_renderer_has(r, RT_EFFECT_AMBIENT_OCCLUSION);
     case RT_STAGE_SHADOW_TALLY:
         return rt_renderer_has_probes(r);
     case RT_STAGE_NEXT:
@@ -79,7 +79,7 @@ static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
 /* At most one ray a bounce waits. */
 static size_t most_waiting(const rt_renderer *r)
 {
-    const int depth = r->effects.on[RT_EFFECT_REFRACTION] ? r->depth : 1;
+    const int depth = r->effects.on[RT_EFFECT_REFRACT] ? r->depth : 1;
     return (size_t)(depth < RT_WAITING_MOST ? depth : RT_WAITING_MOST);
 }
 
@@ -88,7 +88,7 @@ static size_t bytes_a_ray(const rt_renderer *r, enum tile_buffer which)
 {
     const size_t number = r->number_size;
     const bool next = rt_renderer_has_next(r);
-    const bool refraction = rt_renderer_has(r, RT_EFFECT_REFRACTION);
+    const bool refraction = rt_renderer_has(r, RT_EFFECT_REFRACT);
     const bool probes = rt_renderer_has_probes(r);
     const bool any_hit = probes || r->with_occlusion;
     switch (which) {

@@ -32,14 +32,14 @@ static void effect_options(const rt_effects *effects, char *options, size_t size
         const char *option;
     } names[] = {{RT_EFFECT_CHECKER, "CHECKER"},
                  {RT_EFFECT_TEXTURE, "TEXTURE"},
-                 {RT_EFFECT_REFLECTION, "REFLECT"},
-                 {RT_EFFECT_REFRACTION, "REFRACT"},
-                 {RT_EFFECT_ABSORPTION, "ABSORB"},
-                 {RT_EFFECT_OCCLUSION, "AMBIENT_OCCLUSION"},
+                 {RT_EFFECT_REFLECT, "REFLECT"},
+                 {RT_EFFECT_REFRACT, "REFRACT"},
+                 {RT_EFFECT_ABSORB, "ABSORB"},
+                 {RT_EFFECT_AMBIENT_OCCLUSION, "AMBIENT_OCCLUSION"},
                  {RT_EFFECT_FOG, "FOG"},
                  {RT_EFFECT_GRADIENT, "GRADIENT"},
-                 {RT_EFFECT_ANTIALIASING, "ANTIALIAS"},
-                 {RT_EFFECT_DEPTH_OF_FIELD, "LENS"}};
+                 {RT_EFFECT_ANTIALIAS, "ANTIALIAS"},
+                 {RT_EFFECT_LENS, "LENS"}};
     size_t length = strlen(options);
     const bool all = effects->mode == RT_EFFECTS_ALL;
     if (all)
@@ -73,7 +73,7 @@ void rt_variant_options(const rt_effects *effects, const rt_walk *walk, enum rt_
              (int)walk->accuracy, walk->lanes, walk->packet, walk->stack_size > 0,
              round_stack(walk->stack_size), walk->with_occlusion, all || effects->has_spheres,
              all || effects->has_triangles, effects->cull_sign,
-             rt_effects_has(effects, RT_EFFECT_SMOOTH_NORMALS), all ? 20 : effects->exponent_bits,
+             rt_effects_has(effects, RT_EFFECT_SMOOTH), all ? 20 : effects->exponent_bits,
              all || effects->has_fractional_exponent, (int)rounding);
     effect_options(effects, options, RT_VARIANT_OPTIONS_SIZE);
 }

@@ -23,11 +23,11 @@ static bool material_calls(const rt_scene *scene, const rt_material *m, enum rt_
         return m->cell > 0.0f;
     case RT_EFFECT_TEXTURE:
         return m->texture >= 0;
-    case RT_EFFECT_REFLECTION:
+    case RT_EFFECT_REFLECT:
         return m->reflect > 0.0f && scene->depth > 0;
-    case RT_EFFECT_REFRACTION:
+    case RT_EFFECT_REFRACT:
         return m->transmit > 0.0f && scene->depth > 0;
-    case RT_EFFECT_ABSORPTION:
+    case RT_EFFECT_ABSORB:
         return m->transmit > 0.0f && scene->depth > 0 &&
                (m->absorb_r > 0.0f || m->absorb_g > 0.0f || m->absorb_b > 0.0f);
     default:
@@ -101,18 +101,18 @@ rt_effects rt_effects_of(const rt_scene *scene)
                           .has_triangles = scene->triangle_count > 0,
                           .exponent_bits = FEW_BITS};
     rt_effects *e = &effects;
-    call(e, RT_EFFECT_CULLING, e->has_triangles && scene->cull != RT_CULL_NONE, scene->cull_place);
-    e->cull_sign = e->on[RT_EFFECT_CULLING] ? rt_scene_cull_sign(scene) : 0;
-    call(e, RT_EFFECT_SMOOTH_NORMALS, scene->normal_count > 0, scene->smooth_place);
+    call(e, RT_EFFECT_CULL, e->has_triangles && scene->cull != RT_CULL_NONE, scene->cull_place);
+    e->cull_sign = e->on[RT_EFFECT_CULL] ? rt_scene_cull_sign(scene) : 0;
+    call(e, RT_EFFECT_SMOOTH, scene->normal_count > 0, scene->smooth_place);
     settle_materials(e, scene);
     settle_lights(e, scene);
-    call(e, RT_EFFECT_OCCLUSION, scene->occlusion_samples > 0, scene->occlusion_place);
+    call(e, RT_EFFECT_AMBIENT_OCCLUSION, scene->occlusion_samples > 0, scene->occlusion_place);
     call(e, RT_EFFECT_FOG, scene->fog_density > 0.0f, scene->fog_place);
     call(e, RT_EFFECT_GRADIENT,
          scene->has_gradient && differ(scene->background, scene->background_top),
          scene->background_place);
-    call(e, RT_EFFECT_ANTIALIASING, scene->samples > 1, scene->image_place);
-    call(e, RT_EFFECT_DEPTH_OF_FIELD, scene->camera.aperture > 0.0f, scene->camera_place);
+    call(e, RT_EFFECT_ANTIALIAS, scene->samples > 1, scene->image_place);
+    call(e, RT_EFFECT_LENS, scene->camera.aperture > 0.0f, scene->camera_place);
     return effects;
 }
 
@@ -122,11 +122,11 @@ static void remove_from_material(rt_material *m, enum rt_effect effect)
         m->cell = 0.0f;
     if (effect == RT_EFFECT_TEXTURE)
         m->texture = -1;
-    if (effect == RT_EFFECT_REFLECTION)
+    if (effect == RT_EFFECT_REFLECT)
         m->reflect = 0.0f;
-    if (effect == RT_EFFECT_REFRACTION)
+    if (effect == RT_EFFECT_REFRACT)
         m->transmit = 0.0f;
-    if (effect == RT_EFFECT_REFRACTION || effect == RT_EFFECT_ABSORPTION)
+    if (effect == RT_EFFECT_REFRACT || effect == RT_EFFECT_ABSORB)
         m->absorb_r = m->absorb_g = m->absorb_b = 0.0f;
 }
 
@@ -138,21 +138,21 @@ void rt_effects_remove(rt_scene *scene, enum rt_effect effect)
         if (effect ==
             (scene->lights[i].radius > 0.0f ? RT_EFFECT_SOFT_SHADOWS : RT_EFFECT_HARD_SHADOWS))
             scene->lights[i].shadow = 0;
-    for (size_t i = 0; i < scene->triangle_count && effect == RT_EFFECT_SMOOTH_NORMALS; ++i)
+    for (size_t i = 0; i < scene->triangle_count && effect == RT_EFFECT_SMOOTH; ++i)
         scene->triangle_normals[i] = -1;
-    if (effect == RT_EFFECT_SMOOTH_NORMALS)
+    if (effect == RT_EFFECT_SMOOTH)
         scene->normal_count = 0;
-    if (effect == RT_EFFECT_CULLING)
+    if (effect == RT_EFFECT_CULL)
         scene->cull = RT_CULL_NONE;
-    if (effect == RT_EFFECT_OCCLUSION)
+    if (effect == RT_EFFECT_AMBIENT_OCCLUSION)
         scene->occlusion_samples = 0;
     if (effect == RT_EFFECT_FOG)
         scene->fog_density = 0.0f;
     if (effect == RT_EFFECT_GRADIENT)
         scene->has_gradient = false;
-    if (effect == RT_EFFECT_ANTIALIASING)
+    if (effect == RT_EFFECT_ANTIALIAS)
         scene->samples = 1;
-    if (effect == RT_EFFECT_DEPTH_OF_FIELD)
+    if (effect == RT_EFFECT_LENS)
         scene->camera.aperture = 0.0f;
 }
 

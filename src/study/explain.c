@@ -26,11 +26,11 @@ static bool is_own_stage(enum rt_effect effect, enum rt_stage stage)
     case RT_EFFECT_SOFT_SHADOWS:
         return stage == RT_STAGE_SHADOW_RAYS || stage == RT_STAGE_SHADOW ||
                stage == RT_STAGE_SHADOW_TALLY;
-    case RT_EFFECT_OCCLUSION:
+    case RT_EFFECT_AMBIENT_OCCLUSION:
         return stage == RT_STAGE_AMBIENT_RAYS || stage == RT_STAGE_AMBIENT ||
                stage == RT_STAGE_AMBIENT_TALLY;
-    case RT_EFFECT_REFLECTION:
-    case RT_EFFECT_REFRACTION:
+    case RT_EFFECT_REFLECT:
+    case RT_EFFECT_REFRACT:
         return stage == RT_STAGE_COUNT_NEXT || stage == RT_STAGE_PACK ||
                stage == RT_STAGE_NEXT_TRACE || stage == RT_STAGE_NEXT_SHADE;
     default:

@@ -83,24 +83,24 @@ static void what_each_effect_adds(void **state)
         const char *kernels[3]; /* up to a NULL */
     } cases[] = {
         {RT_EFFECT_COUNT, 4, 14, 4, {NULL}},
-        {RT_EFFECT_SMOOTH_NORMALS, 4, 16, 4, {NULL}},
+        {RT_EFFECT_SMOOTH, 4, 16, 4, {NULL}},
         {RT_EFFECT_CHECKER, 4, 14, 4, {NULL}},
         {RT_EFFECT_TEXTURE, 4, 18, 4, {NULL}},
         {RT_EFFECT_HARD_SHADOWS, 4, 15, 4, {"rt_shadow_rays", "rt_tally", NULL}},
         {RT_EFFECT_SOFT_SHADOWS, 4, 15, 4, {"rt_shadow_rays", "rt_tally", NULL}},
-        {RT_EFFECT_OCCLUSION, 4, 16, 4, {"rt_ambient_rays", "rt_tally", NULL}},
-        {RT_EFFECT_REFLECTION, 9, 17, 4, {"rt_next", "rt_count", "rt_pack"}},
-        {RT_EFFECT_REFRACTION, 9, 17, 4, {"rt_next", "rt_count", "rt_pack"}},
+        {RT_EFFECT_AMBIENT_OCCLUSION, 4, 16, 4, {"rt_ambient_rays", "rt_tally", NULL}},
+        {RT_EFFECT_REFLECT, 9, 17, 4, {"rt_next", "rt_count", "rt_pack"}},
+        {RT_EFFECT_REFRACT, 9, 17, 4, {"rt_next", "rt_count", "rt_pack"}},
         {RT_EFFECT_FOG, 4, 15, 4, {NULL}},
         {RT_EFFECT_GRADIENT, 4, 15, 4, {NULL}},
-        {RT_EFFECT_ANTIALIASING, 8, 14, 5, {NULL}},
-        {RT_EFFECT_DEPTH_OF_FIELD, 7, 14, 4, {NULL}},
+        {RT_EFFECT_ANTIALIAS, 8, 14, 5, {NULL}},
+        {RT_EFFECT_LENS, 7, 14, 4, {NULL}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         rt_effects effects = {.has_spheres = true, .has_triangles = true, .exponent_bits = 8};
         const bool probes = cases[i].effect == RT_EFFECT_HARD_SHADOWS ||
                             cases[i].effect == RT_EFFECT_SOFT_SHADOWS ||
-                            cases[i].effect == RT_EFFECT_OCCLUSION;
+                            cases[i].effect == RT_EFFECT_AMBIENT_OCCLUSION;
         if (cases[i].effect < RT_EFFECT_COUNT)
             effects.on[cases[i].effect] = true;
         cl_context context;
@@ -218,7 +218,7 @@ static void depth_0(void **state)
     test_scene(&scene, "image width 8 height 8\nbackground 1 1 1\nambient 1 1 1\ndepth 0\n"
                        "camera vfov 1\nmaterial m ka 0.25 0.5 0 reflect 1\n"
                        "sphere center 0 0 -3 radius 1 material m\n");
-    assert_false(rt_effects_of(&scene).on[RT_EFFECT_REFLECTION]);
+    assert_false(rt_effects_of(&scene).on[RT_EFFECT_REFLECT]);
     test_draw(&scene, NULL, &image);
     for (int i = 0; i < 64; ++i) {
         assert_near(image.rgb[3 * i], 0.25, 0.0);

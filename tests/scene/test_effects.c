@@ -34,11 +34,11 @@ static void phong_alone_calls_for_nothing(void **state)
 static void culling_needs_triangles(void **state)
 {
     (void)state;
-    assert_false(effects_of(MATERIAL SPHERE "cull back\n").on[RT_EFFECT_CULLING]);
+    assert_false(effects_of(MATERIAL SPHERE "cull back\n").on[RT_EFFECT_CULL]);
     assert_int_equal(effects_of(MATERIAL SPHERE "cull back\n").cull_sign, 0);
     const rt_effects e = effects_of(MATERIAL "cull back winding cw\n" TRIANGLE "\n");
-    assert_true(e.on[RT_EFFECT_CULLING]);
-    assert_int_equal(e.called_by[RT_EFFECT_CULLING].line, 3);
+    assert_true(e.on[RT_EFFECT_CULL]);
+    assert_int_equal(e.called_by[RT_EFFECT_CULL].line, 3);
     assert_int_equal(e.cull_sign, -1);
     assert_true(e.has_triangles);
     assert_false(e.has_spheres);
@@ -47,11 +47,11 @@ static void culling_needs_triangles(void **state)
 static void vertex_normals_call_for_smoothness(void **state)
 {
     (void)state;
-    assert_false(effects_of(MATERIAL TRIANGLE "\n").on[RT_EFFECT_SMOOTH_NORMALS]);
+    assert_false(effects_of(MATERIAL TRIANGLE "\n").on[RT_EFFECT_SMOOTH]);
     const rt_effects e =
         effects_of(MATERIAL TRIANGLE "\n" TRIANGLE " na 0 0 1 nb 0 0 1 nc 0 0 1\n");
-    assert_true(e.on[RT_EFFECT_SMOOTH_NORMALS]);
-    assert_int_equal(e.called_by[RT_EFFECT_SMOOTH_NORMALS].line, 4);
+    assert_true(e.on[RT_EFFECT_SMOOTH]);
+    assert_int_equal(e.called_by[RT_EFFECT_SMOOTH].line, 4);
 }
 
 static void exponents_decide_the_power(void **state)
@@ -108,22 +108,22 @@ static void each_effect_is_called_for_by_its_statement_alone(void **state)
         {RT_EFFECT_SOFT_SHADOWS, 3, "material a\nlight point at 0 9 0 radius 1\nshadows on\n" BALL},
         {RT_EFFECT_SOFT_SHADOWS, 3, "material a\nlight point at 0 9 0 radius 1 shadow on\n" BALL},
         {RT_EFFECT_SOFT_SHADOWS, 0, "material a\nlight point at 0 9 0 radius 1\n" BALL},
-        {RT_EFFECT_REFLECTION, 2, "material a reflect 0.5\n" BALL},
-        {RT_EFFECT_REFLECTION, 0, "material a reflect 0\n" BALL},
-        {RT_EFFECT_REFLECTION, 0, "depth 0\nmaterial a reflect 0.5\n" BALL},
-        {RT_EFFECT_REFLECTION, 0, "material b reflect 0.5\nmaterial a\n" BALL},
-        {RT_EFFECT_REFRACTION, 2, "material a transmit 0.5\n" BALL},
-        {RT_EFFECT_REFRACTION, 0, "material a transmit 0 ior 2 absorb 1 1 1\n" BALL},
-        {RT_EFFECT_REFRACTION, 0, "depth 0\nmaterial a transmit 1 absorb 1 1 1\n" BALL},
-        {RT_EFFECT_OCCLUSION, 3, "material a\nocclusion distance 2\n" BALL},
+        {RT_EFFECT_REFLECT, 2, "material a reflect 0.5\n" BALL},
+        {RT_EFFECT_REFLECT, 0, "material a reflect 0\n" BALL},
+        {RT_EFFECT_REFLECT, 0, "depth 0\nmaterial a reflect 0.5\n" BALL},
+        {RT_EFFECT_REFLECT, 0, "material b reflect 0.5\nmaterial a\n" BALL},
+        {RT_EFFECT_REFRACT, 2, "material a transmit 0.5\n" BALL},
+        {RT_EFFECT_REFRACT, 0, "material a transmit 0 ior 2 absorb 1 1 1\n" BALL},
+        {RT_EFFECT_REFRACT, 0, "depth 0\nmaterial a transmit 1 absorb 1 1 1\n" BALL},
+        {RT_EFFECT_AMBIENT_OCCLUSION, 3, "material a\nocclusion distance 2\n" BALL},
         {RT_EFFECT_FOG, 3, "material a\nfog 1 1 1 density 0.5\n" BALL},
         {RT_EFFECT_GRADIENT, 2, "background 1 1 1 top 0 0 0\nmaterial a\n" BALL},
         {RT_EFFECT_GRADIENT, 0, "background 1 1 1 top 1 1 1\nmaterial a\n" BALL},
         {RT_EFFECT_GRADIENT, 0, "background 1 1 1\nmaterial a\n" BALL},
-        {RT_EFFECT_ANTIALIASING, 2, "image samples 2\nmaterial a\n" BALL},
-        {RT_EFFECT_ANTIALIASING, 0, "image samples 1 filter tent\nmaterial a\n" BALL},
-        {RT_EFFECT_DEPTH_OF_FIELD, 2, "camera aperture 0.1\nmaterial a\n" BALL},
-        {RT_EFFECT_DEPTH_OF_FIELD, 0, "camera aperture 0 focus 3\nmaterial a\n" BALL},
+        {RT_EFFECT_ANTIALIAS, 2, "image samples 2\nmaterial a\n" BALL},
+        {RT_EFFECT_ANTIALIAS, 0, "image samples 1 filter tent\nmaterial a\n" BALL},
+        {RT_EFFECT_LENS, 2, "camera aperture 0.1\nmaterial a\n" BALL},
+        {RT_EFFECT_LENS, 0, "camera aperture 0 focus 3\nmaterial a\n" BALL},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i)
         if (line_of(cases[i].text, cases[i].effect) != cases[i].line)
@@ -136,8 +136,8 @@ static void effects_that_come_together(void **state)
 {
     (void)state;
     const rt_effects glass = effects_of("material a transmit 1 absorb 0 0 1\n" BALL);
-    assert_true(glass.on[RT_EFFECT_REFRACTION] && glass.on[RT_EFFECT_ABSORPTION]);
-    assert_int_equal(glass.called_by[RT_EFFECT_ABSORPTION].line, 2);
+    assert_true(glass.on[RT_EFFECT_REFRACT] && glass.on[RT_EFFECT_ABSORB]);
+    assert_int_equal(glass.called_by[RT_EFFECT_ABSORB].line, 2);
     rt_scene scene;
     test_scene_file(&scene, "scenes/textured.txt");
     assert_true(rt_effects_of(&scene).on[RT_EFFECT_TEXTURE]);
@@ -158,13 +158,11 @@ static void the_scenes_to_look_at(void **state)
     static const struct {
         const char *path;
         enum rt_effect effect;
-    } scenes[] = {{"scenes/mirrors.txt", RT_EFFECT_REFLECTION},
-                  {"scenes/glass.txt", RT_EFFECT_REFRACTION},
-                  {"scenes/soft.txt", RT_EFFECT_SOFT_SHADOWS},
-                  {"scenes/focus.txt", RT_EFFECT_DEPTH_OF_FIELD},
-                  {"scenes/fog.txt", RT_EFFECT_FOG},
-                  {"scenes/spheres.txt", RT_EFFECT_REFLECTION},
-                  {"scenes/textured.txt", RT_EFFECT_TEXTURE}};
+    } scenes[] = {
+        {"scenes/mirrors.txt", RT_EFFECT_REFLECT},   {"scenes/glass.txt", RT_EFFECT_REFRACT},
+        {"scenes/soft.txt", RT_EFFECT_SOFT_SHADOWS}, {"scenes/focus.txt", RT_EFFECT_LENS},
+        {"scenes/fog.txt", RT_EFFECT_FOG},           {"scenes/spheres.txt", RT_EFFECT_REFLECT},
+        {"scenes/textured.txt", RT_EFFECT_TEXTURE}};
     rt_scene scene;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
         test_scene_file(&scene, scenes[i].path);
@@ -189,7 +187,7 @@ static void removing_effects(void **state)
         rt_effects_remove(&scene, (enum rt_effect)removed);
         const rt_effects e = rt_effects_of(&scene);
         for (int i = 0; i < RT_EFFECT_COUNT; ++i) {
-            const bool goes_too = i == RT_EFFECT_ABSORPTION && removed == RT_EFFECT_REFRACTION;
+            const bool goes_too = i == RT_EFFECT_ABSORB && removed == RT_EFFECT_REFRACT;
             assert_true(e.on[i] == (i != removed && !goes_too));
         }
         rt_scene_clear(&scene);

@@ -100,8 +100,8 @@ static void measured(void **state)
     }
     assert_true(e.costs[RT_EFFECT_HARD_SHADOWS].has_stages);
     assert_true(e.costs[RT_EFFECT_HARD_SHADOWS].stages.median > 0.0);
-    assert_true(e.costs[RT_EFFECT_REFLECTION].has_stages);
-    assert_true(e.costs[RT_EFFECT_REFLECTION].stages.median > 0.0);
+    assert_true(e.costs[RT_EFFECT_REFLECT].has_stages);
+    assert_true(e.costs[RT_EFFECT_REFLECT].stages.median > 0.0);
     assert_false(e.costs[RT_EFFECT_CHECKER].has_stages);
     assert_true(ticks > 0);
     assert_true(scene.materials[0].reflect == reflect && scene.samples == 2); /* as it was */
@@ -155,7 +155,7 @@ static void the_program(void **state)
     json_t *root = json_load_file(test_path("e.json"), 0, NULL);
     const json_t *effects = json_object_get(root, "effects");
     assert_int_equal(json_array_size(effects), RT_EFFECT_COUNT);
-    const json_t *culling = json_array_get(effects, RT_EFFECT_CULLING);
+    const json_t *culling = json_array_get(effects, RT_EFFECT_CULL);
     assert_true(json_is_true(json_object_get(culling, "on")));
     assert_string_equal(json_string_value(json_object_get(culling, "file")), "scenes/triangle.txt");
     assert_true(json_is_number(json_object_get(json_object_get(culling, "cost"), "median")));
