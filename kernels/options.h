@@ -1,5 +1,5 @@
-/* Every build option of the kernels, with its default. src/render/variant.c is the only place that sets
- * them; a value that no kernel knows stops the build here, not in the middle of a stage. */
+/* Every build option of the kernels, with its default. src/render/variant.c is the only place that
+ * sets them; a value that no kernel knows stops the build here, not in the middle of a stage. */
 
 /* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY
@@ -43,57 +43,22 @@
 #error "RT_STACK must be from 16 to 4096"
 #endif
 
-/* What the scene calls for; what is 0 is not compiled.
- *
- * RT_ANTIALIAS several samples a pixel; RT_LENS depth of field; RT_SHADOWS 1 for lights that are
- * points, 2 for balls too; RT_REFLECT mirror rays; RT_REFRACT refracted ones, RT_ABSORB losses on
- * their way; RT_AMBIENT_OCCLUSION, RT_FOG, RT_GRADIENT, RT_CHECKER, RT_TEXTURE as in the scene. */
-#ifndef RT_ANTIALIAS
-#define RT_ANTIALIAS 0
+/* What the scene calls for: an option for each effect of effects.def, 1 where it is on; what is 0
+ * is not compiled. They have no defaults: whoever builds says them all. RT_CULL is -1 or 1 where
+ * triangles have one side, the sign of the determinant of those that are hit: seen
+ * counter-clockwise it is positive. */
+#define RT_SQUARE(word, name) | RT_##word *RT_##word
+#if (0 RT_EFFECTS(RT_SQUARE)) & ~1
+#error "an effect must be 0 or 1, or -1 for RT_CULL"
 #endif
-#ifndef RT_LENS
-#define RT_LENS 0
-#endif
-#ifndef RT_SHADOWS
-#define RT_SHADOWS 0
-#endif
-#ifndef RT_REFLECT
-#define RT_REFLECT 0
-#endif
-#ifndef RT_REFRACT
-#define RT_REFRACT 0
-#endif
-#ifndef RT_ABSORB
-#define RT_ABSORB 0
-#endif
-#ifndef RT_AMBIENT_OCCLUSION
-#define RT_AMBIENT_OCCLUSION 0
-#endif
-#ifndef RT_FOG
-#define RT_FOG 0
-#endif
-#ifndef RT_GRADIENT
-#define RT_GRADIENT 0
-#endif
-#ifndef RT_CHECKER
-#define RT_CHECKER 0
-#endif
-#ifndef RT_TEXTURE
-#define RT_TEXTURE 0
-#endif
-#if (RT_ANTIALIAS | RT_LENS | RT_REFLECT | RT_REFRACT | RT_ABSORB | RT_AMBIENT_OCCLUSION |         \
-     RT_FOG | RT_GRADIENT | RT_CHECKER | RT_TEXTURE) &                                             \
-    ~1
-#error "an effect must be 0 or 1"
-#endif
-#if RT_SHADOWS < 0 || RT_SHADOWS > 2
-#error "RT_SHADOWS must be 0, 1 or 2"
-#endif
+/* An option that is missing is 0 above, but not here. */
+enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
+#undef RT_SQUARE
 #if RT_ABSORB && !RT_REFRACT
 #error "RT_ABSORB needs RT_REFRACT"
 #endif
 
-/* Effects that are compiled in are switched by bits of an argument `flags`, RT_FLAG_... of types.h;
+/* Effects that are compiled in are switched by bits of an argument `flags`, RT_FLAG of effects.def;
  * without RT_SWITCHED what is compiled in is on. */
 #ifndef RT_SWITCHED
 #define RT_SWITCHED 0
@@ -102,7 +67,7 @@
 #error "RT_SWITCHED must be 0 or 1"
 #endif
 #if RT_SWITCHED
-#define ON(effect) ((flags & RT_FLAG_##effect) != 0)
+#define ON(effect) ((flags & RT_FLAG(RT_EFFECT_##effect)) != 0)
 #else
 #define ON(effect) RT_##effect
 #endif
@@ -110,12 +75,14 @@
 /* Rays that a work-item of the stages beside trace looks after: a block where vectors are wide. */
 #define RT_ITEM_RAYS (RT_LANES > 1 ? RT_BLOCK_RAYS : 1)
 
-/* What follows from the effects: rays that go on from where others end, colours that are sums, rays
- * that ask whether the way is free, random points. */
+/* What follows from the effects: lights that cast shadows, 1 those that are points, 2 balls too;
+ * rays that go on from where others end, colours that are sums, rays that ask whether the way is
+ * free, random points. */
+#define RT_SHADOWS (RT_SOFT_SHADOWS ? 2 : RT_HARD_SHADOWS)
 #define RT_NEXT (RT_REFLECT || RT_REFRACT)
 #define RT_SUM (RT_ANTIALIAS || RT_NEXT)
 #define RT_PROBES (RT_SHADOWS || RT_AMBIENT_OCCLUSION)
-#define RT_RANDOM (RT_ANTIALIAS || RT_LENS || RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION)
+#define RT_RANDOM (RT_ANTIALIAS || RT_LENS || RT_SOFT_SHADOWS || RT_AMBIENT_OCCLUSION)
 
 /* Whether there is a kernel for any hit beside that for the nearest. */
 #ifndef RT_OCCLUSION
@@ -147,22 +114,6 @@
 #error "RT_SPHERES and RT_TRIANGLES must be 0 or 1"
 #endif
 
-/* Which triangles are hit: 0 both sides, 1 those with a positive determinant (seen
- * counter-clockwise), -1 those with a negative one. */
-#ifndef RT_CULL
-#define RT_CULL 0
-#endif
-#if RT_CULL < -1 || RT_CULL > 1
-#error "RT_CULL must be -1, 0 or 1"
-#endif
-
-/* Whether some triangle has vertex normals. */
-#ifndef RT_SMOOTH
-#define RT_SMOOTH 0
-#endif
-#if RT_SMOOTH != 0 && RT_SMOOTH != 1
-#error "RT_SMOOTH must be 0 or 1"
-#endif
 #if RT_SMOOTH && !RT_TRIANGLES
 #error "RT_SMOOTH needs RT_TRIANGLES"
 #endif

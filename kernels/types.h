@@ -229,16 +229,4 @@ typedef struct rt_turn {
 #define RT_COUNT_REFRACTED 1
 #define RT_COUNT_COMPONENTS 2
 
-/* Bits of `flags` where effects are switched at run time. */
-#define RT_FLAG_ANTIALIAS 0x1
-#define RT_FLAG_LENS 0x2
-#define RT_FLAG_SHADOWS 0x4
-#define RT_FLAG_ABSORB 0x20
-#define RT_FLAG_AMBIENT_OCCLUSION 0x40
-#define RT_FLAG_FOG 0x80
-#define RT_FLAG_GRADIENT 0x100
-#define RT_FLAG_CHECKER 0x200
-#define RT_FLAG_TEXTURE 0x400
-#define RT_FLAG_TENT 0x800
-
 #endif

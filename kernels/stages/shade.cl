@@ -190,7 +190,7 @@ INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
         __global const rt_light *light = w->lights + k;
         number free = 1.0f;
 #if RT_SHADOWS
-        if (ON(SHADOWS) && light->shadow)
+        if ((ON(HARD_SHADOWS) || ON(SOFT_SHADOWS)) && light->shadow)
             free = (number)w->open[(size_t)k * step + i] / (number)light->samples;
 #endif
         add_light(light, m, kd, &s, direction, free, &sum);

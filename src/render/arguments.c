@@ -62,23 +62,10 @@ static void know_scene(known *k, const rt_device_scene *s)
 /* The bits of the effects that are on, for kernels that are switched by them. */
 static cl_int flags_of(const rt_renderer *r)
 {
-    static const struct {
-        enum rt_effect effect;
-        cl_int flag;
-    } flags[] = {{RT_EFFECT_CHECKER, RT_FLAG_CHECKER},
-                 {RT_EFFECT_TEXTURE, RT_FLAG_TEXTURE},
-                 {RT_EFFECT_HARD_SHADOWS, RT_FLAG_SHADOWS},
-                 {RT_EFFECT_SOFT_SHADOWS, RT_FLAG_SHADOWS},
-                 {RT_EFFECT_ABSORB, RT_FLAG_ABSORB},
-                 {RT_EFFECT_AMBIENT_OCCLUSION, RT_FLAG_AMBIENT_OCCLUSION},
-                 {RT_EFFECT_FOG, RT_FLAG_FOG},
-                 {RT_EFFECT_GRADIENT, RT_FLAG_GRADIENT},
-                 {RT_EFFECT_ANTIALIAS, RT_FLAG_ANTIALIAS},
-                 {RT_EFFECT_LENS, RT_FLAG_LENS}};
     cl_int bits = 0;
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i)
-        if (r->effects.on[flags[i].effect])
-            bits |= flags[i].flag;
+    for (int e = 0; e < RT_EFFECT_COUNT; ++e)
+        if (r->effects.on[e])
+            bits |= RT_FLAG(e);
     return bits;
 }
 

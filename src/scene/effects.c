@@ -169,10 +169,9 @@ bool rt_effects_has(const rt_effects *effects, enum rt_effect effect)
 
 const char *rt_effect_name(enum rt_effect effect)
 {
-    static const char *const names[RT_EFFECT_COUNT] = {
-        "culling",      "smooth normals", "checker",       "texture",       "hard shadows",
-        "soft shadows", "reflection",     "refraction",    "absorption",    "ambient occlusion",
-        "fog",          "gradient",       "anti-aliasing", "depth of field"};
+#define NAME(word, name) name,
+    static const char *const names[RT_EFFECT_COUNT] = {RT_EFFECTS(NAME)};
+#undef NAME
     return effect < RT_EFFECT_COUNT ? names[effect] : "none";
 }
 

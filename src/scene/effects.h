@@ -4,26 +4,8 @@
 
 #include <stdbool.h>
 
+#include "kernels/effects.def"
 #include "scene/scene.h"
-
-/* In the order of `--explain`. */
-enum rt_effect {
-    RT_EFFECT_CULL,
-    RT_EFFECT_SMOOTH,
-    RT_EFFECT_CHECKER,
-    RT_EFFECT_TEXTURE,
-    RT_EFFECT_HARD_SHADOWS,
-    RT_EFFECT_SOFT_SHADOWS,
-    RT_EFFECT_REFLECT,
-    RT_EFFECT_REFRACT,
-    RT_EFFECT_ABSORB,
-    RT_EFFECT_AMBIENT_OCCLUSION,
-    RT_EFFECT_FOG,
-    RT_EFFECT_GRADIENT,
-    RT_EFFECT_ANTIALIAS,
-    RT_EFFECT_LENS,
-    RT_EFFECT_COUNT
-};
 
 /* What is compiled into the kernels. */
 enum rt_effects_mode {
