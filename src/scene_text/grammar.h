@@ -3,6 +3,7 @@
 #ifndef RT_SCENE_TEXT_GRAMMAR_H
 #define RT_SCENE_TEXT_GRAMMAR_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -32,37 +33,27 @@ typedef struct rt_field {
     const char *meaning;
 } rt_field;
 
-enum rt_statement_id {
-    RT_STATEMENT_RT,
-    RT_STATEMENT_INCLUDE,
-    RT_STATEMENT_IMAGE,
-    RT_STATEMENT_CAMERA,
-    RT_STATEMENT_BACKGROUND,
-    RT_STATEMENT_AMBIENT,
-    RT_STATEMENT_FOG,
-    RT_STATEMENT_OCCLUSION,
-    RT_STATEMENT_SHADOWS,
-    RT_STATEMENT_DEPTH,
-    RT_STATEMENT_LIGHT_POINT,
-    RT_STATEMENT_LIGHT_DIRECTIONAL,
-    RT_STATEMENT_MATERIAL,
-    RT_STATEMENT_SPHERE,
-    RT_STATEMENT_TRIANGLE,
-    RT_STATEMENT_MESH,
-    RT_STATEMENT_CULL,
-    RT_STATEMENT_ACCURACY,
-    RT_STATEMENT_COUNT
-};
+struct rt_parser;
+struct rt_source;
+struct rt_line;
+
+/* Does what a statement says, once its line is read by its row. False after a message at it. */
+typedef bool rt_statement_apply(struct rt_parser *parser, struct rt_source *source,
+                                const struct rt_line *line);
 
 typedef struct rt_statement {
     const char *keyword;
     const char *variant; /* the word that must follow the keyword, or NULL */
     int once;            /* at most one a scene */
     const char *meaning;
+    rt_statement_apply *apply;      /* NULL: nothing beyond that it is there */
     rt_field fields[RT_FIELDS_MAX]; /* ended by meaning == NULL */
 } rt_statement;
 
-/* RT_STATEMENT_COUNT entries, indexed by rt_statement_id. */
+/* Most statements that there are. */
+#define RT_STATEMENTS_MAX 24
+
+/* Ended by keyword == NULL. */
 extern const rt_statement rt_statements[];
 
 /* Number of fields of a statement. */

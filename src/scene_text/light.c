@@ -57,8 +57,8 @@ bool rt_scene_apply_light_directional(rt_parser *p, rt_source *src, const rt_lin
 
 bool rt_scene_apply_shadows(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    (void)src;
     p->has_shadows = l->values[0].choice == 0;
+    p->shadows_place = rt_source_place(src);
     return true;
 }
 
@@ -72,6 +72,6 @@ void rt_scene_settle_shadows(rt_parser *p)
         light->shadow = p->has_shadows;
         /* It is the radius, at the light itself, that calls for a soft one. */
         if (p->has_shadows && light->radius == 0.0f)
-            scene->light_places[i] = p->seen[RT_STATEMENT_SHADOWS];
+            scene->light_places[i] = p->shadows_place;
     }
 }

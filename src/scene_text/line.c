@@ -224,11 +224,11 @@ bool rt_line_read(rt_source *source, rt_line *l)
 
 static bool fail_unknown_statement(rt_source *source, const rt_word *word)
 {
-    const char *names[RT_STATEMENT_COUNT] = {NULL};
+    const char *names[RT_STATEMENTS_MAX] = {NULL};
     size_t count = 0;
-    for (int id = 0; id < RT_STATEMENT_COUNT; ++id)
-        if (count == 0 || strcmp(names[count - 1], rt_statements[id].keyword) != 0)
-            names[count++] = rt_statements[id].keyword;
+    for (const rt_statement *s = rt_statements; s->keyword; ++s)
+        if (count == 0 || strcmp(names[count - 1], s->keyword) != 0)
+            names[count++] = s->keyword;
     char list[EXPECTATION_SIZE];
     list_names(list, sizeof list, names, count);
     return RT_FAIL_AT(source, rt_word_start(word), "found '%.*s%s'; a line begins with one of %s",
@@ -237,20 +237,20 @@ static bool fail_unknown_statement(rt_source *source, const rt_word *word)
 
 bool rt_line_is_keyword(const rt_word *word)
 {
-    for (int i = 0; i < RT_STATEMENT_COUNT; ++i)
-        if (rt_word_equals(word, rt_statements[i].keyword))
+    for (const rt_statement *s = rt_statements; s->keyword; ++s)
+        if (rt_word_equals(word, s->keyword))
             return true;
     return false;
 }
 
 static bool fail_unknown_variant(rt_source *source, const rt_word *keyword, const rt_word *found)
 {
-    const char *names[RT_STATEMENT_COUNT], *first = NULL;
+    const char *names[RT_STATEMENTS_MAX], *first = NULL;
     size_t count = 0;
-    for (int i = 0; i < RT_STATEMENT_COUNT; ++i)
-        if (rt_statements[i].variant && rt_word_equals(keyword, rt_statements[i].keyword)) {
-            first = rt_statements[i].keyword;
-            names[count++] = rt_statements[i].variant;
+    for (const rt_statement *s = rt_statements; s->keyword; ++s)
+        if (s->variant && rt_word_equals(keyword, s->keyword)) {
+            first = s->keyword;
+            names[count++] = s->variant;
         }
     char list[EXPECTATION_SIZE];
     list_names(list, sizeof list, names, count);
@@ -265,8 +265,7 @@ bool rt_line_begin(rt_source *source, const rt_word *keyword, rt_line *l)
 {
     rt_word second = {source->cursor, 0, false};
     bool is_variant = false;
-    for (int i = 0; i < RT_STATEMENT_COUNT; ++i) {
-        const rt_statement *s = &rt_statements[i];
+    for (const rt_statement *s = rt_statements; s->keyword; ++s) {
         if (keyword->text[0] != s->keyword[0] || !rt_word_equals(keyword, s->keyword))
             continue;
         if (s->variant && !is_variant) {
@@ -275,7 +274,6 @@ bool rt_line_begin(rt_source *source, const rt_word *keyword, rt_line *l)
                 return false;
         }
         if (!s->variant || rt_word_equals(&second, s->variant)) {
-            l->id = (enum rt_statement_id)i;
             l->statement = s;
             l->start = keyword->text;
             for (size_t k = 0; k < RT_FIELDS_MAX; ++k)

@@ -18,7 +18,6 @@ typedef struct rt_value {
 } rt_value;
 
 typedef struct rt_line {
-    enum rt_statement_id id;
     const rt_statement *statement;
     const char *start;              /* of the keyword */
     rt_value values[RT_FIELDS_MAX]; /* by field */

@@ -16,7 +16,7 @@
 static bool read_file(rt_parser *p, const char *path, rt_source *includer, const char *at);
 
 /* Opens `word` relative to the file that names it. */
-static bool apply_include(rt_parser *p, rt_source *src, const rt_line *l)
+bool rt_scene_apply_include(rt_parser *p, rt_source *src, const rt_line *l)
 {
     const rt_word *word = &l->values[0].word;
     char *path = rt_file_beside(src->name, word->text, word->length);
@@ -38,40 +38,9 @@ static bool apply_include(rt_parser *p, rt_source *src, const rt_line *l)
     return done;
 }
 
-typedef bool apply_statement(rt_parser *p, rt_source *source, const rt_line *line);
-
-static bool apply_version(rt_parser *p, rt_source *src, const rt_line *l)
-{
-    (void)src;
-    (void)l;
-    p->has_version = true;
-    return true;
-}
-
-static apply_statement *const apply[RT_STATEMENT_COUNT] = {
-    [RT_STATEMENT_RT] = apply_version,
-    [RT_STATEMENT_INCLUDE] = apply_include,
-    [RT_STATEMENT_IMAGE] = rt_scene_apply_image,
-    [RT_STATEMENT_CAMERA] = rt_scene_apply_camera,
-    [RT_STATEMENT_BACKGROUND] = rt_scene_apply_background,
-    [RT_STATEMENT_AMBIENT] = rt_scene_apply_ambient,
-    [RT_STATEMENT_FOG] = rt_scene_apply_fog,
-    [RT_STATEMENT_OCCLUSION] = rt_scene_apply_occlusion,
-    [RT_STATEMENT_SHADOWS] = rt_scene_apply_shadows,
-    [RT_STATEMENT_DEPTH] = rt_scene_apply_depth,
-    [RT_STATEMENT_LIGHT_POINT] = rt_scene_apply_light_point,
-    [RT_STATEMENT_LIGHT_DIRECTIONAL] = rt_scene_apply_light_directional,
-    [RT_STATEMENT_MATERIAL] = rt_scene_apply_material,
-    [RT_STATEMENT_SPHERE] = rt_scene_apply_sphere,
-    [RT_STATEMENT_TRIANGLE] = rt_scene_apply_triangle,
-    [RT_STATEMENT_MESH] = rt_scene_apply_mesh,
-    [RT_STATEMENT_CULL] = rt_scene_apply_cull,
-    [RT_STATEMENT_ACCURACY] = rt_scene_apply_accuracy,
-};
-
 static bool check_order(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    rt_place *seen = &p->seen[l->id];
+    rt_place *seen = &p->seen[l->statement - rt_statements];
     if (l->statement->once && seen->line)
         return RT_FAIL_AT(src, l->start, "'%s' is given already at %s:%d", l->statement->keyword,
                           seen->file, seen->line);
@@ -85,8 +54,8 @@ static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
 {
     rt_line l; /* set by rt_line_begin */
     const bool in_order = p->has_version || rt_word_equals(keyword, "rt");
+    p->has_version = true; /* or this is said once */
     if (!in_order) {
-        p->has_version = true; /* said once */
         RT_FAIL_AT(src, rt_word_start(keyword), "found '%.*s%s'; a scene begins with 'rt 1'",
                    RT_SHOWN(keyword));
         if (!rt_line_is_keyword(keyword))
@@ -95,15 +64,13 @@ static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
     if (!rt_line_begin(src, keyword, &l) || !check_order(p, src, &l))
         return false;
     if (!rt_line_read(src, &l)) {
-        /* The name counts as defined, so that its uses are not errors too. */
+        /* A name counts as defined, so that its uses are not errors too. */
         const rt_value *name = &l.values[0];
-        if (l.id == RT_STATEMENT_RT)
-            p->has_version = true;
-        if (l.id == RT_STATEMENT_MATERIAL && name->given && name->word.length > 0)
+        if (l.statement->fields[0].kind == RT_VALUE_NAME && name->given && name->word.length > 0)
             rt_scene_define_broken(p, src, &name->word);
         return false;
     }
-    return apply[l.id](p, src, &l) && in_order;
+    return (!l.statement->apply || l.statement->apply(p, src, &l)) && in_order;
 }
 
 static bool read_text(rt_parser *p, rt_source *src)

@@ -4,9 +4,10 @@
 
 bool rt_scene_apply_sphere(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    const rt_value *v = l->values;
-    const int32_t material = rt_scene_find_material(p, src, &v[2].word);
-    const rt_sphere sphere = {v[0].number[0], v[0].number[1], v[0].number[2], v[1].number[0]};
+    enum { CENTER, RADIUS, SURFACE };
+    const float *center = l->values[CENTER].number;
+    const int32_t material = rt_scene_find_material(p, src, &l->values[SURFACE].word);
+    const rt_sphere sphere = {center[0], center[1], center[2], l->values[RADIUS].number[0]};
     return material >= 0 && rt_scene_add_sphere(p->scene, &sphere, material, p->status);
 }
 
@@ -56,7 +57,8 @@ bool rt_scene_apply_triangle(rt_parser *p, rt_source *src, const rt_line *l)
 
 bool rt_scene_apply_mesh(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    const rt_value *material = &l->values[1];
+    enum { PATH, SURFACE };
+    const rt_value *material = &l->values[SURFACE];
     const int32_t index = material->given ? rt_scene_find_material(p, src, &material->word) : -1;
     size_t degenerate_count = 0;
     if ((material->given && index < 0) ||
