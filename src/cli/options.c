@@ -193,6 +193,8 @@ static const struct row {
 #define ROWS (sizeof rows / sizeof *rows)
 /* Where the lines of --help about an option begin. */
 #define HELP_COLUMN 23
+/* Room for the list of the formats of pictures. */
+#define FORMATS_SIZE 200
 
 static void print_row(const struct row *row, FILE *out)
 {
@@ -213,15 +215,19 @@ static void print_row(const struct row *row, FILE *out)
 
 void rt_options_help(FILE *out)
 {
-    fputs("Usage: rt [OPTION]... SCENE OUTPUT\n"
-          "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
-          "       rt [OPTION]... --explain SCENE\n"
-          "       rt [OPTION]... --study=REPORT SCENE\n"
-          "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
-          "png, bmp, tga, jpg or hdr by its extension, - for a PNG on standard output. OUTPUT may\n"
-          "be left out with --verify, --hits or --stats.\n"
-          "\n",
-          out);
+    char formats[FORMATS_SIZE];
+    rt_image_formats_list("", formats, sizeof formats);
+    fprintf(
+        out,
+        "Usage: rt [OPTION]... SCENE OUTPUT\n"
+        "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
+        "       rt [OPTION]... --explain SCENE\n"
+        "       rt [OPTION]... --study=REPORT SCENE\n"
+        "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
+        "%s by its extension, - for a PNG on standard output. OUTPUT may\n"
+        "be left out with --verify, --hits or --stats.\n"
+        "\n",
+        formats);
     for (size_t i = 0; i < ROWS; ++i)
         print_row(&rows[i], out);
     fputs("\n"
@@ -309,9 +315,12 @@ static bool check(rt_options *o, rt_status *status)
         return fail_usage(status, "no output is given", "");
     if (o->quiet)
         o->progress = RT_PROGRESS_NEVER;
-    if (o->output && o->format == RT_IMAGE_UNKNOWN)
-        return rt_status_fail(status, RT_ERROR_USAGE,
-                              "rt: '%s' does not end in .png, .bmp, .tga, .jpg or .hdr", o->output);
+    if (o->output && !o->format) {
+        char formats[FORMATS_SIZE];
+        rt_image_formats_list(".", formats, sizeof formats);
+        return rt_status_fail(status, RT_ERROR_USAGE, "rt: '%s' does not end in %s", o->output,
+                              formats);
+    }
     const char *const outputs[] = {o->output, o->hits, o->stats};
     int to_stdout = 0;
     for (size_t i = 0; i < 3; ++i)
@@ -360,7 +369,7 @@ static bool read_option(rt_options *options, int code, const char *value, rt_sta
 
 bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *status)
 {
-    *options = (rt_options){.format = RT_IMAGE_UNKNOWN, .plan = rt_study_plan_default()};
+    *options = (rt_options){.plan = rt_study_plan_default()};
     const char *environment = getenv("RT_DEVICE");
     if (environment && *environment)
         (void)read_device(options, environment);

@@ -7,7 +7,7 @@
 
 #include "common/accuracy.h"
 #include "common/status.h"
-#include "image/image.h"
+#include "image/formats.h"
 #include "scene/effects.h"
 #include "study/plan.h"
 
@@ -33,9 +33,9 @@ enum rt_progress_when { RT_PROGRESS_AUTO, RT_PROGRESS_ALWAYS, RT_PROGRESS_NEVER 
 /* All strings are the caller's argv or environment. */
 typedef struct rt_options {
     enum rt_action action;
-    const char *scene;  /* "-" for standard input */
-    const char *output; /* NULL where no picture is asked for; "-" for standard output */
-    enum rt_image_format format;
+    const char *scene;             /* "-" for standard input */
+    const char *output;            /* NULL where no picture is asked for; "-" for standard output */
+    const rt_image_format *format; /* of `output`; NULL for none that there is */
     enum rt_target target;
     enum rt_accel accel;
     bool has_accuracy; /* else the scene decides */

@@ -1,4 +1,4 @@
-/* Pictures and hit records: their memory, their comparison, their files. */
+/* Pictures and hit records: their memory and their comparison. */
 #ifndef RT_IMAGE_IMAGE_H
 #define RT_IMAGE_IMAGE_H
 
@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "common/file.h"
 #include "common/ray.h"
 #include "common/status.h"
 
@@ -22,6 +21,9 @@ void rt_image_clear(rt_image *image);
 /* The 8-bit step of a component: floor(255 c + 0.5) after clamping to 0..1; 0 for NaN. */
 uint8_t rt_image_step(float component);
 
+/* The steps of all components, in their order, from malloc; NULL after an error. */
+uint8_t *rt_image_steps(const rt_image *image, rt_status *status);
+
 /* How two pictures of one size differ. Steps are 8-bit steps. */
 typedef struct rt_image_difference {
     size_t hits;          /* hit records that differ in a bit; 0 where either has none */
@@ -33,25 +35,5 @@ typedef struct rt_image_difference {
 } rt_image_difference;
 
 rt_image_difference rt_image_compare(const rt_image *a, const rt_image *b);
-
-enum rt_image_format {
-    RT_IMAGE_PNG,
-    RT_IMAGE_BMP,
-    RT_IMAGE_TGA,
-    RT_IMAGE_JPG,
-    RT_IMAGE_HDR,
-    RT_IMAGE_UNKNOWN
-};
-
-/* The format that a file name's extension stands for, in any case; "-" is PNG. */
-enum rt_image_format rt_image_format_of(const char *path);
-
-/* Encodes to an open output; the caller commits or discards it. */
-bool rt_image_write(const rt_image *image, enum rt_image_format format, rt_output *output,
-                    rt_status *status);
-
-/* Writes the hit records: for each pixel, row by row from the top, little-endian int32 primitive
- * index and float32 t, u, v. */
-bool rt_image_write_hits(const rt_image *image, rt_output *output, rt_status *status);
 
 #endif

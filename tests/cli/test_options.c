@@ -36,7 +36,7 @@ static void good_lines(void **state)
     assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_OK);
     assert_string_equal(o.scene, "s.txt");
     assert_string_equal(o.output, "o.png");
-    assert_int_equal(o.format, RT_IMAGE_PNG);
+    assert_string_equal(o.format->extensions[0], "png");
     assert_int_equal(o.target, RT_TARGET_DEVICE);
     assert_null(o.device);
     assert_int_equal(read_line("s.txt --size 640x480 o.hdr --device=1:0 --lanes 8 --tile 32 -q", &o,
@@ -44,7 +44,7 @@ static void good_lines(void **state)
                      RT_OK);
     assert_int_equal(o.width, 640);
     assert_int_equal(o.height, 480);
-    assert_int_equal(o.format, RT_IMAGE_HDR);
+    assert_string_equal(o.format->extensions[0], "hdr");
     assert_string_equal(o.device, "1:0");
     assert_int_equal(o.lanes, 8);
     assert_int_equal(o.tile, 32);
@@ -289,6 +289,22 @@ static void the_completions_have_the_options(void **state)
     free(help);
 }
 
+/* The pages list the formats of pictures as --help does. */
+static void the_pages_have_the_formats(void **state)
+{
+    (void)state;
+    static const char *const files[] = {"src/cli/rt.1", "src/cli/README.md"};
+    char formats[100];
+    rt_image_formats_list("", formats, sizeof formats);
+    for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
+        char *text = test_read_file(files[i], NULL);
+        assert_non_null(text);
+        if (!strstr(text, formats))
+            fail_msg("%s does not have '%s'", files[i], formats);
+        free(text);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -297,6 +313,7 @@ int main(void)
         cmocka_unit_test(misuse),
         cmocka_unit_test(the_man_page_has_the_options),
         cmocka_unit_test(the_completions_have_the_options),
+        cmocka_unit_test(the_pages_have_the_formats),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/image.h"
+#include "image/formats.h"
 
 /* A reader of its own, for all formats: the program's knows those of textures. */
 #define STB_IMAGE_IMPLEMENTATION
@@ -105,17 +105,22 @@ static void hits_are_compared_by_bits(void **state)
 static void formats_by_extension(void **state)
 {
     (void)state;
-    assert_int_equal(rt_image_format_of("a.png"), RT_IMAGE_PNG);
-    assert_int_equal(rt_image_format_of("a.b/c.PNG"), RT_IMAGE_PNG);
-    assert_int_equal(rt_image_format_of("a.jpeg"), RT_IMAGE_JPG);
-    assert_int_equal(rt_image_format_of("a.JPG"), RT_IMAGE_JPG);
-    assert_int_equal(rt_image_format_of("x.tga"), RT_IMAGE_TGA);
-    assert_int_equal(rt_image_format_of("x.bmp"), RT_IMAGE_BMP);
-    assert_int_equal(rt_image_format_of("x.hdr"), RT_IMAGE_HDR);
-    assert_int_equal(rt_image_format_of("-"), RT_IMAGE_PNG);
-    assert_int_equal(rt_image_format_of("png"), RT_IMAGE_UNKNOWN);
-    assert_int_equal(rt_image_format_of("a.png/b"), RT_IMAGE_UNKNOWN);
-    assert_int_equal(rt_image_format_of("a.gif"), RT_IMAGE_UNKNOWN);
+    static const char *const paths[][2] = {
+        {"a.png", "png"}, {"a.b/c.PNG", "png"}, {"a.jpeg", "jpg"}, {"a.JPG", "jpg"},
+        {"x.tga", "tga"}, {"x.bmp", "bmp"},     {"x.hdr", "hdr"},  {"-", "png"},
+        {"png", NULL},    {"a.png/b", NULL},    {"a.gif", NULL},   {"a.", NULL}};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i) {
+        const rt_image_format *format = rt_image_format_of(paths[i][0]);
+        if (paths[i][1])
+            assert_string_equal(format->extensions[0], paths[i][1]);
+        else
+            assert_null(format);
+    }
+    char list[64], cut[8];
+    rt_image_formats_list(".", list, sizeof list);
+    assert_string_equal(list, ".png, .bmp, .tga, .jpg or .hdr");
+    rt_image_formats_list("", cut, sizeof cut);
+    assert_string_equal(cut, "png, bm");
 }
 
 static const char *write_as(const rt_image *image, const char *name)

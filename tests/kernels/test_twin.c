@@ -337,7 +337,7 @@ static void a_wrong_kernel_is_noticed(void **state)
         {SOFT, "sampling.cl", "copysign((number)1.0f, n.z)", "(number)1.0f"},
         {SOFT, "probe.cl", "ADD_SCALED(s.point, away, place)", "place"},
         {HARD, "probe.cl", "(1.0f - 0x1p-12f)", "(1.0f + 0x1p-1f)"},
-        {HARD, "shade.cl", "ON(SHADOWS) && light->shadow", "ON(SHADOWS) && light->shadow && k"},
+        {HARD, "shade.cl", ") && light->shadow)", ") && light->shadow && k)"},
         {OCCLUSION, "probe.cl", "fma(-x, x,", "fma(x, x,"},
         {OCCLUSION | SMOOTH, "probe.cl", "is_hit & (DOT(out, s.facing) > (number)0.0f)", "is_hit"},
         {SOFT | OCCLUSION | MIRROR, "probe.cl", "RT_DIMENSION(p->dimension, bounce,",
