@@ -9,7 +9,7 @@
 #include "common/clock.h"
 #include "common/parallel.h"
 #include "reference/scalar.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 /* Called by one thread at a time, as a team promises. */
 static bool keep_going(void *context, double done)
@@ -50,7 +50,7 @@ static bool read_scene(rt_run *r)
 {
     const rt_options *o = &r->options;
     const double start = rt_clock_seconds();
-    if (!rt_scene_text_read(&r->scene, o->scene, &r->status))
+    if (!rt_scene_read(&r->scene, o->scene, &r->status))
         return false;
     if (o->width) {
         r->scene.width = o->width;

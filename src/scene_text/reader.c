@@ -12,8 +12,9 @@
 
 #define INCLUDE_DEPTH_MAX 16
 
-/* `at` is where the includer names the file; both are NULL for the scene itself. */
-static bool read_file(rt_parser *p, const char *path, rt_source *includer, const char *at);
+/* Reads one file, which another may include; its name is kept for what points to it. */
+static bool read_file(rt_parser *p, const char *name, const rt_file_text *text,
+                      rt_source *includer);
 
 /* Opens `word` relative to the file that names it. */
 bool rt_scene_apply_include(rt_parser *p, rt_source *src, const rt_line *l)
@@ -33,9 +34,14 @@ bool rt_scene_apply_include(rt_parser *p, rt_source *src, const rt_line *l)
             free(path);
             return false;
         }
-    const bool done = read_file(p, path, src, rt_word_start(word));
+    rt_file_text text;
+    const char *reason = rt_file_read(path, &text);
+    const bool good = reason ? RT_FAIL_AT(src, rt_word_start(word), "cannot read '%.*s': %s",
+                                          RT_PATH_SHOWN, path, reason)
+                             : read_file(p, path, &text, src);
+    rt_file_free(&text);
     free(path);
-    return done;
+    return good;
 }
 
 static bool check_order(rt_parser *p, rt_source *src, const rt_line *l)
@@ -73,7 +79,7 @@ static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
     return (!l.statement->apply || l.statement->apply(p, src, &l)) && in_order;
 }
 
-static bool read_text(rt_parser *p, rt_source *src)
+static bool read_lines(rt_parser *p, rt_source *src)
 {
     bool good = true;
     if (src->end - src->cursor >= 3 && memcmp(src->cursor, "\xef\xbb\xbf", 3) == 0)
@@ -88,45 +94,34 @@ static bool read_text(rt_parser *p, rt_source *src)
     return good;
 }
 
-static bool read_file(rt_parser *p, const char *path, rt_source *includer, const char *at)
+static bool read_file(rt_parser *p, const char *name, const rt_file_text *text, rt_source *includer)
 {
     rt_scene *scene = p->scene;
-    const bool is_stdin = !includer && strcmp(path, "-") == 0;
-    char *name = strdup(is_stdin ? "<stdin>" : path);
-    if (!name || !RT_ARRAY_GROW(scene->files, scene->file_count, &scene->file_capacity)) {
-        free(name);
+    char *kept = strdup(name);
+    if (!kept || !RT_ARRAY_GROW(scene->files, scene->file_count, &scene->file_capacity)) {
+        free(kept);
         return rt_status_no_memory(p->status, "a file name");
     }
-    scene->files[scene->file_count++] = name;
-
-    rt_file_text text;
-    const char *reason = rt_file_read(is_stdin ? NULL : path, &text);
-    if (reason && includer)
-        return RT_FAIL_AT(includer, at, "cannot read '%.*s': %s", RT_PATH_SHOWN, path, reason);
-    if (reason)
-        return rt_status_fail(p->status, RT_ERROR_SCENE, "rt: cannot read '%s': %s", path, reason);
-    rt_source src = {name,     text.bytes + text.length, text.bytes, text.bytes, 1, includer,
+    scene->files[scene->file_count++] = kept;
+    rt_source src = {kept,     text->bytes + text->length, text->bytes, text->bytes, 1, includer,
                      p->status};
-    const bool good = read_text(p, &src);
-    rt_file_free(&text);
-    return good;
+    return read_lines(p, &src);
 }
 
-bool rt_scene_text_read(rt_scene *scene, const char *path, rt_status *status)
+bool rt_scene_text_read(rt_scene *scene, const char *name, const rt_file_text *text,
+                        rt_status *status)
 {
     rt_parser p = {.scene = scene, .status = status};
-    bool good = read_file(&p, path, NULL, NULL);
+    bool good = read_file(&p, name, text, NULL);
     if (good && !p.has_version)
-        good =
-            rt_status_fail(status, RT_ERROR_SCENE,
-                           "%s:1:1: error: the file has no statement; a scene begins with 'rt 1'",
-                           scene->files[0]);
+        good = rt_status_fail(
+            status, RT_ERROR_SCENE,
+            "%s:1:1: error: the file has no statement; a scene begins with 'rt 1'", name);
     if (p.degenerate_count > 0)
         rt_status_warn(status,
                        "%s:%d:1: warning: the triangle has no area and is never hit (%zu such)",
                        p.degenerate_place.file, p.degenerate_place.line, p.degenerate_count);
     rt_scene_settle_shadows(&p);
     rt_scene_forget_materials(&p);
-    rt_scene_choose_unit(scene);
     return good;
 }

@@ -13,7 +13,7 @@
 #include "common/clock.h"
 #include "common/parallel.h"
 #include "render/renderer.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 #define SIZE_DEFAULT 512
 /* The longer side of the pictures with effects, most of which have several samples a pixel. */
@@ -246,7 +246,7 @@ static bool measure_fused(bench *b, int size)
     rt_scene scene;
     rt_bvh bvh = {0};
     rt_scene_init(&scene);
-    bool good = rt_scene_text_read(&scene, "scenes/icecream.txt", &b->status);
+    bool good = rt_scene_read(&scene, "scenes/icecream.txt", &b->status);
     scene.width = scene.height = size;
     snprintf(input, sizeof input, "icecream %dx%d", size, size);
     good = good && rt_bvh_build(&bvh, &scene, rt_parallel_processors(), &b->status) &&

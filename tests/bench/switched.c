@@ -13,7 +13,7 @@
 #include "common/clock.h"
 #include "common/parallel.h"
 #include "render/state.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 #define SAMPLES_MOST 4
 
@@ -121,7 +121,7 @@ static bool measure_scene(bench_switched *s, bench *b, const char *name, int siz
     way ways[2] = {{.renderer = NULL}, {.renderer = NULL}};
     snprintf(path, sizeof path, "scenes/%s.txt", name);
     rt_scene_init(&scene);
-    bool good = rt_scene_text_read(&scene, path, &b->status);
+    bool good = rt_scene_read(&scene, path, &b->status);
     if (good) {
         make_small(&scene, size);
         s->width = scene.width;

@@ -12,7 +12,7 @@
 #include <sys/mman.h>
 
 #include "scene/camera.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 #define TOLD HARD_REPORT
 
@@ -273,7 +273,7 @@ static void angles_that_are_none(void **state)
         const char *path = test_path("angle.txt");
         rt_scene_init(&scene);
         test_write_text(path, texts[i]);
-        assert_false(rt_scene_text_read(&scene, path, &status));
+        assert_false(rt_scene_read(&scene, path, &status));
         assert_non_null(strstr(status.text, "angle.txt:2:"));
         rt_status_clear(&status);
         rt_scene_clear(&scene);

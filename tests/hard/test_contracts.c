@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 #define TOLD HARD_REPORT
 
@@ -34,7 +34,7 @@ static bool is_refused(const char *text)
     test_write_text(path, whole);
     free(whole);
     rt_scene_init(&scene);
-    const bool refused = !rt_scene_text_read(&scene, path, &status) && status.text &&
+    const bool refused = !rt_scene_read(&scene, path, &status) && status.text &&
                          strstr(status.text, "refused.txt:3:");
     rt_status_clear(&status);
     rt_scene_clear(&scene);
@@ -117,7 +117,7 @@ static void not_finite_in_meshes(void **state)
         const char *path = test_path("refused.txt");
         test_write_text(path, text);
         rt_scene_init(&scene);
-        assert_false(rt_scene_text_read(&scene, path, &status));
+        assert_false(rt_scene_read(&scene, path, &status));
         assert_non_null(strstr(status.text, i < 3 ? "m.obj:3:" : "refused.txt:3:"));
         rt_status_clear(&status);
         rt_scene_clear(&scene);
@@ -143,7 +143,7 @@ static void measure_no_area(const hard_way *way, const void *of, double figures[
     (void)of;
     test_write_text(path, text);
     rt_scene_init(&scene);
-    assert_good(rt_scene_text_read(&scene, path, &status), &status);
+    assert_good(rt_scene_read(&scene, path, &status), &status);
     figures[0] = !(status.text && strstr(status.text, "(4 such)"));
     rt_status_clear(&status);
     if (way->naive)

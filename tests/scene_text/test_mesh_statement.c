@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 /* One corner on each axis. */
 #define AXES "v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"
@@ -26,7 +26,7 @@ static bool read_scene(rt_scene *s, const char *text, rt_status *status)
     test_write_text(path, text);
     *status = RT_STATUS_INIT;
     rt_scene_init(s);
-    return rt_scene_text_read(s, path, status);
+    return rt_scene_read(s, path, status);
 }
 
 static void every_format(void **state)

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "scene_text/grammar.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 static void assert_vector(rt_vec3 v, float x, float y, float z)
 {
@@ -239,7 +239,7 @@ static void lines_of_ten_megabytes(void **state)
     test_write_file(path, text, length);
     rt_status status = RT_STATUS_INIT;
     rt_scene_init(&s);
-    assert_false(rt_scene_text_read(&s, path, &status));
+    assert_false(rt_scene_read(&s, path, &status));
     assert_true(status.length < 1000);
     rt_scene_clear(&s);
     rt_status_clear(&status);
@@ -274,7 +274,7 @@ static void a_triangle_without_area_is_told(void **state)
     rt_status status = RT_STATUS_INIT;
     rt_scene s;
     rt_scene_init(&s);
-    assert_true(rt_scene_text_read(&s, path, &status));
+    assert_true(rt_scene_read(&s, path, &status));
     assert_int_equal(s.triangle_count, 3); /* indices stay */
     assert_non_null(strstr(status.text, "flat.txt:3:1: warning: the triangle has no area"));
     assert_non_null(strstr(status.text, "(2 such)"));
@@ -304,7 +304,7 @@ static void every_bad_scene_has_its_message(void **state)
         rt_status status = RT_STATUS_INIT;
         rt_scene s;
         rt_scene_init(&s);
-        assert_false(rt_scene_text_read(&s, path, &status));
+        assert_false(rt_scene_read(&s, path, &status));
         assert_int_equal(status.code, RT_ERROR_SCENE);
         char *text = NULL;
         const size_t more = status.errors > RT_STATUS_SHOWN ? status.errors - RT_STATUS_SHOWN : 0;
@@ -327,12 +327,12 @@ static void a_missing_file(void **state)
     rt_status status = RT_STATUS_INIT;
     rt_scene s;
     rt_scene_init(&s);
-    assert_false(rt_scene_text_read(&s, "/nowhere/scene.txt", &status));
+    assert_false(rt_scene_read(&s, "/nowhere/scene.txt", &status));
     assert_int_equal(status.code, RT_ERROR_SCENE);
     assert_string_equal(status.text,
                         "rt: cannot read '/nowhere/scene.txt': No such file or directory\n");
     rt_status_clear(&status);
-    assert_false(rt_scene_text_read(&s, "scenes", &status));
+    assert_false(rt_scene_read(&s, "scenes", &status));
     assert_string_equal(status.text, "rt: cannot read 'scenes': Is a directory\n");
     rt_status_clear(&status);
     rt_scene_clear(&s);
@@ -350,7 +350,7 @@ static void survive_every_prefix(const char *scene)
         rt_status status = RT_STATUS_INIT;
         rt_scene s;
         rt_scene_init(&s);
-        const bool good = rt_scene_text_read(&s, path, &status);
+        const bool good = rt_scene_read(&s, path, &status);
         assert_true(good == (status.code == RT_OK));
         rt_scene_clear(&s);
         rt_status_clear(&status);

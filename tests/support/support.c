@@ -12,7 +12,7 @@
 #include "common/file.h"
 #include "opencl/kernel_text.h"
 #include "reference/scalar.h"
-#include "scene_text/reader.h"
+#include "scene_file/read.h"
 
 void test_near(double actual, double expected, double tolerance, const char *file, int line)
 {
@@ -76,7 +76,7 @@ void test_scene_file(rt_scene *scene, const char *path)
 {
     rt_status status = RT_STATUS_INIT;
     rt_scene_init(scene);
-    assert_good(rt_scene_text_read(scene, path, &status), &status);
+    assert_good(rt_scene_read(scene, path, &status), &status);
     rt_status_clear(&status);
 }
 
