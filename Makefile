@@ -68,7 +68,7 @@ OBJECTS := $(SOURCES:$(SRC)src/%.c=$(BUILD)/%.o) $(BUILD)/opencl/kernel_text.o \
            $(patsubst $(SRC)src/%.c,$(BUILD)/%_double.o,$(wildcard $(SRC)src/reference/*.c))
 LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
 TESTS := $(patsubst $(SRC)%.c,$(BUILD)/%,$(wildcard $(SRC)tests/*/test_*.c))
-TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(SRC)tests/support/support.c \
+TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(wildcard $(SRC)tests/support/*.c) \
                 $(filter-out $(SRC)tests/hard/test_%,$(wildcard $(SRC)tests/hard/*.c)))
 
 # ---- The program ----

@@ -1,4 +1,5 @@
 /* The tree against brute force: for every scene, however ill shaped, the same hits to the bit. */
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <math.h>
@@ -344,10 +345,7 @@ static void identical_primitives_stay_shallow(void **state)
 static void a_wrong_walk_is_noticed(void **state)
 {
     (void)state;
-    static const char *const mutants[][2] = {
-        {"m->t = LESSER(GREATER(m->t, enter), leave);", ""},
-        {"(real)SLAB_MARGIN;", "(real)0.9999f;"},
-    };
+    static const test_mutant mutants[] = {MUTANT_NOT_KEPT_IN_BOX, MUTANT_SLAB_SHRUNK};
     size_t noticed = 0;
     for (size_t m = 0; m < sizeof mutants / sizeof *mutants; ++m) {
         rt_scene scene;
@@ -375,7 +373,7 @@ static void a_wrong_walk_is_noticed(void **state)
         }
         const int shape[2] = {0, 0};
         trace(&scene, rays, false, shape, hits, occluded);
-        test_mutate_kernels("intersect.cl", mutants[m][0], mutants[m][1]);
+        test_mutate_kernels(mutants[m]);
         trace(&scene, rays, true, shape, hits + RAYS, occluded);
         test_restore_kernels();
         noticed += memcmp(hits, hits + RAYS, RAYS * sizeof *hits) != 0;

@@ -1,5 +1,6 @@
 /* The program itself, run as a user runs it: what it prints, what it leaves, and its exit codes. */
 #define _GNU_SOURCE
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <jansson.h>
@@ -101,7 +102,7 @@ static void no_device_is_3(void **state)
 static void kernels_that_do_not_build_are_3(void **state)
 {
     (void)state;
-    test_mutate_kernels("shade.cl", "const rt_surround surround", "const rt_around surround");
+    test_mutate_kernels(MUTANT_UNKNOWN_TYPE);
     assert_int_equal(run("$RT scenes/sphere.txt $T/k.png"), 3);
     test_restore_kernels();
     assert_says("the kernels do not build");
@@ -135,13 +136,13 @@ static void a_difference_is_5(void **state)
     (void)state;
     assert_int_equal(run("$RT --verify scenes/icecream.txt --size 100x80 >$T/report"), 0);
     assert_int_equal(run("grep -q 'hit records that differ:  *0 of 8000' $T/report"), 0);
-    test_mutate_kernels("shade.cl", "kd.x * diffuse", "kd.x * diffuse * 0.9f");
+    test_mutate_kernels(MUTANT_DIFFUSE_DIM);
     assert_int_equal(
         run("$RT --verify scenes/icecream.txt $T/differs.png --size 100x80 >$T/report"), 5);
     test_restore_kernels();
     assert_says("differ, first at pixel");
     assert_exists("differs.png", true); /* it is what there is to look at */
-    test_mutate_kernels("packet.cl", "MASK(m->t < h->t) |", "MASK(m->t > h->t) |");
+    test_mutate_kernels(MUTANT_FARTHEST_HIT);
     assert_int_equal(run("$RT --verify scenes/icecream.txt --size 100x80 >$T/report"), 5);
     test_restore_kernels();
 }

@@ -25,6 +25,11 @@ double hard_per_million(size_t events, size_t of)
     return of ? 1e6 * (double)events / (double)of : NAN;
 }
 
+const char *hard_naive_name(const hard_naive *naive)
+{
+    return naive->name ? naive->name : test_mutations[naive->mutant].what;
+}
+
 static bool is_there(enum rt_accuracy level)
 {
     return level != RT_ACCURACY_DOUBLE || test_device()->has_fp64;
@@ -68,7 +73,8 @@ static bool hold_naives(const hard_case *c, size_t figures, char cells[][256])
     for (size_t f = 0; f < figures; ++f)
         cells[f][0] = 0;
     for (int n = 0; n < HARD_NAIVES && c->naives[n]; ++n) {
-        const hard_way way = {c->naives[n]->name, RT_ACCURACY_STANDARD, c->naives[n], false};
+        const hard_way way = {hard_naive_name(c->naives[n]), RT_ACCURACY_STANDARD, c->naives[n],
+                              false};
         double values[HARD_FIGURES] = {0.0};
         bool is_caught = false;
         c->measure(&way, c->of, values);
@@ -76,11 +82,12 @@ static bool hold_naives(const hard_case *c, size_t figures, char cells[][256])
             const size_t used = strlen(cells[f]);
             const double gate = c->figures[f].gates[naive_level];
             is_caught = is_caught || (gate != HARD_REPORT && !is_lawful(values[f], gate));
-            snprintf(cells[f] + used, 256 - used, "%s%s %.3g", n ? ", " : "", c->naives[n]->name,
-                     values[f]);
+            snprintf(cells[f] + used, 256 - used, "%s%s %.3g", n ? ", " : "",
+                     hard_naive_name(c->naives[n]), values[f]);
         }
         if (!is_caught)
-            print_error("row %d, %s: lets %s pass\n", c->row, c->name, c->naives[n]->name);
+            print_error("row %d, %s: lets %s pass\n", c->row, c->name,
+                        hard_naive_name(c->naives[n]));
         good = good && is_caught;
     }
     return good;
@@ -166,8 +173,8 @@ static void open_tracer(hard_tracer *tracer, const hard_way *way, rt_scene *scen
         tracer->naive = way->naive;
         return;
     }
-    if (way->naive && way->naive->file)
-        test_mutate_kernels(way->naive->file, way->naive->from, way->naive->to);
+    if (way->naive && way->naive->mutant)
+        test_mutate_kernels(way->naive->mutant);
     test_use_tree(!way->by_brute_force);
     tracer->renderer = renderer_of(scene, &options);
     test_use_tree(true);
@@ -182,8 +189,8 @@ void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene)
 void hard_draw(const hard_way *way, rt_scene *scene, rt_image *image)
 {
     scene->accuracy = way->level;
-    if (way->naive && way->naive->file)
-        test_mutate_kernels(way->naive->file, way->naive->from, way->naive->to);
+    if (way->naive && way->naive->mutant)
+        test_mutate_kernels(way->naive->mutant);
     test_draw(scene, NULL, image);
     test_restore_kernels();
 }

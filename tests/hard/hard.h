@@ -8,14 +8,15 @@
 #include "support/support.h"
 
 #include "reference/scalar.h"
+#include "support/mutants.h"
 
-/* A naive variant: nearest hits by plain scalar C (tests/hard/naive.c), or kernels in which the
- * text `from` of a file is replaced, or neither where the case itself is naive then. */
+/* A naive variant: nearest hits by plain scalar C (tests/hard/naive.c), or wrong kernels, named by
+ * what is wrong with them, or neither where the case itself is naive then. */
 typedef void hard_trace_fn(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
 typedef struct hard_naive {
-    const char *name;
+    const char *name; /* NULL: the mutant's */
     hard_trace_fn *trace;
-    const char *file, *from, *to;
+    test_mutant mutant;
 } hard_naive;
 
 /* What answers: a level on the device, through the tree or by brute force; or a naive variant. */
@@ -69,6 +70,9 @@ typedef struct hard_tracer {
     const hard_naive *naive;
     rt_renderer *renderer;
 } hard_tracer;
+
+/* What the table calls it. */
+const char *hard_naive_name(const hard_naive *naive);
 
 /* Makes the renderer, for a scene in the file's unit. */
 void hard_open(hard_tracer *tracer, const hard_way *way, rt_scene *scene);

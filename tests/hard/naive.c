@@ -201,7 +201,4 @@ const hard_naive hard_naive_quadratic = {.name = "b*b - 4ac", .trace = trace_qua
 const hard_naive hard_naive_slab = {.name = "slabs without margin", .trace = trace_slab};
 const hard_naive hard_naive_last = {.name = "last of equals", .trace = trace_last};
 const hard_naive hard_naive_entering = {.name = "near roots only", .trace = trace_entering};
-const hard_naive hard_naive_no_offset = {
-    "no offset", NULL, "surface.cl",
-    "const number lift = DOT(s->facing, *side) > 0.0f ? s->lift : -s->lift;",
-    "const number lift = 0.0f * s->lift;"};
+const hard_naive hard_naive_no_offset = {.mutant = MUTANT_NO_OFFSET};

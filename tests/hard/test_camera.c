@@ -305,7 +305,7 @@ static void release(rt_image *image)
 static void draw_tail(const hard_way *way, rt_scene *scene, int side, rt_image *image)
 {
     if (way->naive)
-        test_mutate_kernels(way->naive->file, way->naive->from, way->naive->to);
+        test_mutate_kernels(way->naive->mutant);
     rt_status status = RT_STATUS_INIT;
     const rt_render_options options = {.tile = side, .with_hits = true};
     rt_tiles tiles;
@@ -360,10 +360,7 @@ static void measure_largest(const hard_way *way, const void *of, double figures[
 static void sizes(void **state)
 {
     (void)state;
-    static const hard_naive few_bits = {.name = "13 bits of a column",
-                                        .file = "camera.cl",
-                                        .from = "(tile.x + p.column)",
-                                        .to = "((tile.x + p.column) & 8191)"};
+    static const hard_naive few_bits = {.mutant = MUTANT_COLUMN_OF_13_BITS};
     const hard_case c = {
         .row = 39,
         .name = "the last corner of 16384 x 16384 pixels",

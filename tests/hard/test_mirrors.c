@@ -225,8 +225,7 @@ static void measure_total_reflection(const hard_way *way, const void *of, double
 static void total_reflection(void **state)
 {
     (void)state;
-    static const hard_naive no_guard = {"root of a negative", NULL, "path.cl",
-                                        "if (!(sine2 < one))\n        return 0;", ""};
+    static const hard_naive no_guard = {.mutant = MUTANT_ROOT_OF_NEGATIVE};
     /* Colours are float at every level. */
     const hard_case c = {.row = 35,
                          .name = "glass at the critical angle, within 2^-13 of it",

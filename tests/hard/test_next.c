@@ -10,10 +10,7 @@
 #define TOLD HARD_REPORT
 
 /* The constant that one finds in textbooks. */
-static const hard_naive fixed_offset = {
-    "offset 1e-4", NULL, "surface.cl",
-    "const number lift = DOT(s->facing, *side) > 0.0f ? s->lift : -s->lift;",
-    "const number lift = DOT(s->facing, *side) > 0.0f ? 1e-4f : -1e-4f;"};
+static const hard_naive fixed_offset = {.mutant = MUTANT_FIXED_OFFSET};
 
 typedef bool pixel_fn(const float rgb[3]);
 
@@ -219,9 +216,7 @@ static void measure_sealed_edges(const hard_way *way, const void *of, double fig
 static void sealed(void **state)
 {
     (void)state;
-    static const hard_naive moller_strict = {"edges left out", NULL, "intersect.cl",
-                                             "MASK(m->u >= (real)0.0f)",
-                                             "MASK(m->u > (real)0.001f * m->det)"};
+    static const hard_naive moller_strict = {.mutant = MUTANT_EDGES_LEFT_OUT};
     const hard_case rooms = {.row = 23,
                              .name = "inside a sealed mesh, the lamp outside",
                              .figures = {{"lit a million", {1, 1, 0, 0}}},

@@ -58,10 +58,7 @@ static void measure_horizon(const hard_way *way, const void *of, double figures[
 static void horizon(void **state)
 {
     (void)state;
-    static const hard_naive no_sign = {.name = "no test of the side",
-                                       .file = "shade.cl",
-                                       .from = "(n_dot_l > 0.0f ? n_dot_l : 0.0f)",
-                                       .to = "fabs(n_dot_l)"};
+    static const hard_naive no_sign = {.mutant = MUTANT_LIT_FROM_BEHIND};
     const hard_case c = {.row = 24,
                          .name = "a light k ulp above the horizon, k = -8 .. 8",
                          .figures = {{"lit from below", {TOLD, TOLD, 0, 0}},
@@ -90,10 +87,7 @@ static void measure_touching(const hard_way *way, const void *of, double figures
 static void touching(void **state)
 {
     (void)state;
-    static const hard_naive no_guard = {.name = "no test for 0",
-                                        .file = "shade.cl",
-                                        .from = "has_direction ? 1.0f : 0.0f",
-                                        .to = "1.0f"};
+    static const hard_naive no_guard = {.mutant = MUTANT_LIGHT_AT_THE_POINT};
     const hard_case c = {.row = 25,
                          .name = "a light at the point itself",
                          .figures = {{"off the ambient light by", {0, 0, 0, 0}}},
@@ -136,12 +130,8 @@ static void measure_normals(const hard_way *way, const void *of, double figures[
 static void normals(void **state)
 {
     (void)state;
-    static const hard_naive no_side = {.name = "normals as they are",
-                                       .file = "surface.cl",
-                                       .from = "SCALE(unit, side < 0.0f ? -1.0f : 1.0f)",
-                                       .to = "unit"};
-    static const hard_naive no_guard = {
-        .name = "no test for 0", .file = "surface.cl", .from = "if (has_direction)", .to = ""};
+    static const hard_naive no_side = {.mutant = MUTANT_SMOOTH_NOT_TURNED};
+    static const hard_naive no_guard = {.mutant = MUTANT_SMOOTH_OF_ZERO};
     /* At fast the flat picture's program and the smooth one's may round a quotient differently, by
      * the processor's own estimate of a reciprocal, and an ulp can be a step. */
     const hard_case c = {.row = 30,
@@ -244,10 +234,7 @@ static void exponents(void **state)
     (void)state;
     static const exponent subjects[] = {{"0", 40.0},    {"1", 40.0},  {"0.5", 40.0},
                                         {"10000", 1.0}, {"1e6", 0.1}, {"12345.5", 1.0}};
-    static const hard_naive half = {.name = "7 bits of the exponent",
-                                    .file = "shade.cl",
-                                    .from = "bit < RT_SHININESS_BITS",
-                                    .to = "bit < 7"};
+    static const hard_naive half = {.mutant = MUTANT_EXPONENT_OF_7_BITS};
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) {
         char name[64];
         /* At fast the view's direction is not rounded correctly, and at 1e6 an ulp of the cosine is
@@ -263,10 +250,7 @@ static void exponents(void **state)
                              .of = &subjects[i]};
         hard_hold(&c);
     }
-    static const hard_naive from_zero = {.name = "0^0 = 0",
-                                         .file = "shade.cl",
-                                         .from = "number result = 1.0f;",
-                                         .to = "number result = x;"};
+    static const hard_naive from_zero = {.mutant = MUTANT_POWER_OF_ZERO};
     const hard_case zero = {.row = 31,
                             .name = "0 to the power of 0, 1, 1e4, 0.5",
                             .figures = {{"off 1, 0, 0, 0 by", {0, 0, 0, 0}}},

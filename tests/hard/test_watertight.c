@@ -251,10 +251,7 @@ static void measure_variant(const hard_way *way, const void *of, double figures[
 static void builds(void **state)
 {
     (void)state;
-    static const hard_naive contracted = {.name = "contracted",
-                                          .file = "real.h",
-                                          .from = "#pragma OPENCL FP_CONTRACT OFF",
-                                          .to = "#pragma OPENCL FP_CONTRACT ON"};
+    static const hard_naive contracted = {.mutant = MUTANT_CONTRACTED};
     static const build all[] = {{"as built", "", NULL},
                                 {"FP_CONTRACT ON", "", &contracted},
                                 {"-cl-fast-relaxed-math", "-cl-fast-relaxed-math", NULL},

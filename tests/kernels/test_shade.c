@@ -1,5 +1,6 @@
 /* Phong's formula against pixels computed by hand, and the three bugs of normals that renderers
  * have had: each check is shown to fail when the bug is put into the kernels. */
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <math.h>
@@ -256,9 +257,9 @@ static bool lit_from_the_front(void)
     return fabs((double)ccw[0] - 1.0) < 1e-6 && fabs((double)cw[0] - 1.0) < 1e-6;
 }
 
-static bool holds_with(bool (*check)(void), const char *file, const char *from, const char *to)
+static bool holds_with(bool (*check)(void), test_mutant mutant)
 {
-    test_mutate_kernels(file, from, to);
+    test_mutate_kernels(mutant);
     const bool holds = check();
     test_restore_kernels();
     return holds;
@@ -268,17 +269,14 @@ static void a_unit_normal_too_early_would_shrink_the_triangle(void **state)
 {
     (void)state;
     assert_true(covers_its_projection());
-    assert_false(holds_with(covers_its_projection, "intersect.cl", "DOT(e1, p);",
-                            "DOT(e1, p) / ROOT(DOT(CROSS(real3, e1, e2), CROSS(real3, e1, e2)));"));
+    assert_false(holds_with(covers_its_projection, MUTANT_EDGE_UNIT_TOO_EARLY));
 }
 
 static void a_long_normal_would_turn_highlights_white(void **state)
 {
     (void)state;
     assert_true(highlight_is_of_its_size());
-    assert_false(holds_with(highlight_is_of_its_size, "surface.cl",
-                            "CROSS(vec3, f1, f2);\n    make_unit(&normal);",
-                            "CROSS(vec3, f1, f2);"));
+    assert_false(holds_with(highlight_is_of_its_size, MUTANT_NORMAL_LONG));
 }
 
 static void swapped_edges_would_turn_the_normal_away(void **state)
@@ -286,12 +284,9 @@ static void swapped_edges_would_turn_the_normal_away(void **state)
     (void)state;
     assert_true(lit_from_the_front());
     /* Turning normals toward the ray is what makes the order of the edges harmless ... */
-    assert_true(
-        holds_with(lit_from_the_front, "surface.cl", "CROSS(vec3, f1, f2)", "CROSS(vec3, f2, f1)"));
+    assert_true(holds_with(lit_from_the_front, MUTANT_NORMAL_OF_SWAPPED_EDGES));
     /* ... and without it either order is wrong for one of the two windings. */
-    assert_false(holds_with(lit_from_the_front, "surface.cl",
-                            "return DOT(normal, direction) > 0.0f ? -1.0f : 1.0f;",
-                            "return 1.0f;"));
+    assert_false(holds_with(lit_from_the_front, MUTANT_NORMAL_NOT_TURNED));
 }
 
 int main(void)

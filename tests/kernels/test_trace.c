@@ -1,5 +1,6 @@
 /* The trace kernel against the scalar path, bit for bit, over seeded ray sets of more than a
  * million rays in all, at every lane width. */
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <math.h>
@@ -197,16 +198,9 @@ static void any_number_of_rays(void **state)
 /* The comparison notices kernels that are almost right. */
 static void a_wrong_kernel_is_noticed(void **state)
 {
-    static const struct {
-        const char *file, *from, *to;
-    } mutants[] = {
-        {"intersect.cl", "MASK(m->u + m->v <= m->det)", "MASK(m->u + m->v < m->det)"},
-        {"intersect.cl", "MASK(m->det > (real)0.0f)", "MASK(m->det > (real)1e-6f)"},
-        {"packet.cl", "MASK((mask)index < h->index)", "MASK((mask)index > h->index)"},
-        {"intersect.cl", "-DOT(l, l)", "-(l.x * l.x + l.y * l.y + l.z * l.z)"},
-        {"intersect.cl", "DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), m->det)",
-         "AS_REAL(AS_MASK(DOT(e2, q)) ^ sign) * DIVIDE((real)1.0f, m->det)"},
-    };
+    static const test_mutant mutants[] = {MUTANT_EDGES_STRICT, MUTANT_DETERMINANT_MARGIN,
+                                          MUTANT_LAST_OF_EQUALS, MUTANT_DOT_NOT_FUSED,
+                                          MUTANT_QUOTIENT_BY_RECIPROCAL};
     const fixture *f = *state;
     rt_status status = RT_STATUS_INIT;
     rt_scene scene;
@@ -221,14 +215,14 @@ static void a_wrong_kernel_is_noticed(void **state)
     f->rays[0] = (rt_ray){{3.5f, 3.5f, 1}, {0, 0, -1}, 0, INFINITY};
     rt_scalar_float_trace(&scene, f->rays, RAYS, f->expected);
     for (size_t m = 0; m < sizeof mutants / sizeof *mutants; m += test_is_long() ? 1 : 2) {
-        test_mutate_kernels(mutants[m].file, mutants[m].from, mutants[m].to);
+        test_mutate_kernels(mutants[m]);
         const rt_render_options options = {0};
         rt_renderer *renderer = test_renderer(&scene, &options);
         test_restore_kernels();
         assert_good(rt_renderer_trace(renderer, f->rays, RAYS, f->actual, &status), &status);
         rt_renderer_free(renderer);
         if (memcmp(f->expected, f->actual, RAYS * sizeof *f->expected) == 0)
-            fail_msg("nobody notices '%s'", mutants[m].to);
+            fail_msg("nobody notices %s", test_mutations[mutants[m]].name);
     }
     rt_scene_clear(&scene);
 }

@@ -1,6 +1,7 @@
 /* Twins: pictures of random scenes, each effect alone and all of them together, on the device and
  * by the scalar reference. Every ray of every path is the same to the bit, so colours can differ by
  * what the device's exp, exp2 and arc functions round otherwise, and by nothing else. */
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <glob.h>
@@ -328,41 +329,39 @@ static void a_wrong_kernel_is_noticed(void **state)
     (void)state;
     static const struct {
         int asked;
-        const char *file, *from, *to;
+        test_mutant mutant;
     } mutants[] = {
-        {SAMPLES | TENT, "camera.cl", "ROOT_1(twice) - (number)1.0f", "twice - (number)1.0f"},
-        {SAMPLES, "sampling.cl", "2 * (uint)s + 1", "2 * (uint)s"},
-        {LENS, "sampling.cl", "*x = r * (flat ? cosine : sine)", "*x = r * (flat ? sine : cosine)"},
-        {LENS | SAMPLES, "sampling.cl", "0 : cell_of(g, seed)", "0 : 0 * seed"},
-        {SOFT, "sampling.cl", "copysign((number)1.0f, n.z)", "(number)1.0f"},
-        {SOFT, "probe.cl", "ADD_SCALED(s.point, away, place)", "place"},
-        {HARD, "probe.cl", "(1.0f - 0x1p-12f)", "(1.0f + 0x1p-1f)"},
-        {HARD, "shade.cl", ") && light->shadow)", ") && light->shadow && k)"},
-        {OCCLUSION, "probe.cl", "fma(-x, x,", "fma(x, x,"},
-        {OCCLUSION | SMOOTH, "probe.cl", "is_hit & (DOT(out, s.facing) > (number)0.0f)", "is_hit"},
-        {SOFT | OCCLUSION | MIRROR, "probe.cl", "RT_DIMENSION(p->dimension, bounce,",
-         "RT_DIMENSION(p->dimension, 0 * bounce,"},
-        {MIRROR | SMOOTH, "path.cl", "!(DOT(*out, s->facing) > (number)0.0f)", "0"},
-        {MIRROR | GLASS, "path.cl", "from.bounce < depth", "from.bounce + 1 < depth"},
-        {MIRROR | GLASS, "path.cl", "(r->weight >= (number)RT_WEIGHT_LEAST)",
-         "(r->weight >= (number)(4 * RT_WEIGHT_LEAST))"},
-        {GLASS, "path.cl", "leave(s, &behind", "leave(s, &s->facing"},
-        {GLASS, "path.cl", "fma(-eta, c2, c1)", "fma(-eta, c1, c2)"},
-        {GLASS, "path.cl", ": ior;", ": DIVIDE_1((number)1.0f, ior);"},
-        {GLASS | ABSORB, "path.cl", "s->outside ? material : RT_OUTSIDE", "material"},
-        {CHECKER, "pattern.cl", "DIVIDE_1(point.x, cell) + half_", "DIVIDE_1(point.x, cell)"},
-        {TEXTURE, "pattern.cl", "t.height - 1 - ", ""},
-        {TEXTURE, "pattern.cl", "floor(across - (number)0.5f)", "floor(across)"},
-        {FOG, "shade.cl", "exp(-(number)fog->density * t)", "exp(-(number)fog->density)"},
-        {GRADIENT, "shade.cl", "fma((number)0.5f, DOT(d, up), (number)0.5f)", "DOT(d, up)"},
+        {SAMPLES | TENT, MUTANT_TENT_WITHOUT_ROOT},
+        {SAMPLES, MUTANT_SAME_BITS_TWICE},
+        {LENS, MUTANT_DISK_TURNED},
+        {LENS | SAMPLES, MUTANT_CELLS_TOGETHER},
+        {SOFT, MUTANT_FRAME_OF_ONE_SIGN},
+        {SOFT, MUTANT_PROBE_FROM_ORIGIN},
+        {HARD, MUTANT_PROBE_TOO_LONG},
+        {HARD, MUTANT_FIRST_LIGHT_SHADOWLESS},
+        {OCCLUSION, MUTANT_PROBE_COSINE},
+        {OCCLUSION | SMOOTH, MUTANT_PROBE_INTO_SURFACE},
+        {SOFT | OCCLUSION | MIRROR, MUTANT_PROBE_SAME_AT_BOUNCES},
+        {MIRROR | SMOOTH, MUTANT_MIRRORED_INTO_SURFACE},
+        {MIRROR | GLASS, MUTANT_DEPTH_ONE_LESS},
+        {MIRROR | GLASS, MUTANT_WEIGHT_GIVEN_UP_EARLY},
+        {GLASS, MUTANT_REFRACTED_FROM_FRONT},
+        {GLASS, MUTANT_FRESNEL_SWAPPED},
+        {GLASS, MUTANT_INDEX_INVERTED},
+        {GLASS | ABSORB, MUTANT_MEDIUM_KEPT},
+        {CHECKER, MUTANT_CELLS_AT_BORDER},
+        {TEXTURE, MUTANT_PICTURE_UPSIDE_DOWN},
+        {TEXTURE, MUTANT_TEXEL_HALF_OFF},
+        {FOG, MUTANT_FOG_WITHOUT_WAY},
+        {GRADIENT, MUTANT_GRADIENT_STEEP},
     };
     for (size_t i = 0; i < sizeof mutants / sizeof *mutants; i += test_is_long() ? 1 : 4) {
         tally sum = {0, 0, 0, 0};
-        test_mutate_kernels(mutants[i].file, mutants[i].from, mutants[i].to);
+        test_mutate_kernels(mutants[i].mutant);
         compare_random(5000, 4, mutants[i].asked, 1, RT_ACCURACY_STANDARD, &sum);
         test_restore_kernels();
         if (sum.off + sum.hits == 0)
-            fail_msg("nobody notices '%s' in the place of '%s'", mutants[i].to, mutants[i].from);
+            fail_msg("nobody notices %s", test_mutations[mutants[i].mutant].name);
     }
 }
 

@@ -2,6 +2,7 @@
  *
  * Triangles are dealt out to scenes in each of which no two touch, so that the number of scenes
  * that a ray hits is the number of triangles that it hits. */
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <math.h>
@@ -200,13 +201,8 @@ static void standard_is_not_watertight(void **state)
 static void a_wrong_test_is_noticed(void **state)
 {
     (void)state;
-    static const char *const mutants[][2] = {
-        {"fma(a, b, -product_) + fma(-(c), d, product_)", "fma(a, b, -product_)"},
-        {"m->on = m->on & owns(&s, is_positive);", ""},
-        {"MASK(s->cy > s->by) |", "MASK(s->cy < s->by) |"},
-        {"(MASK(s->wc != (real)0.0f) | ~(beyond_c ^ is_positive))",
-         "(MASK(s->wc != (real)0.0f) | ~beyond_c)"},
-    };
+    static const test_mutant mutants[] = {MUTANT_RESIDUAL_LEFT_OUT, MUTANT_EDGES_OF_BOTH,
+                                          MUTANT_EDGE_TURNED, MUTANT_EDGE_ONE_SIDED};
     const rt_render_options options = {0};
     for (size_t i = 0; i < sizeof mutants / sizeof *mutants; i += test_is_long() ? 1 : 2) {
         size_t noticed = 0;
@@ -221,7 +217,7 @@ static void a_wrong_test_is_noticed(void **state)
             rt_scene scene;
             fill_scene(&scene, &m, color);
             scene.accuracy = RT_ACCURACY_ROBUST;
-            test_mutate_kernels("watertight.cl", mutants[i][0], mutants[i][1]);
+            test_mutate_kernels(mutants[i]);
             rt_renderer *renderer = test_renderer(&scene, &options);
             test_restore_kernels();
             assert_good(rt_renderer_trace(renderer, rays, RAYS, hits, &status), &status);
@@ -233,7 +229,7 @@ static void a_wrong_test_is_noticed(void **state)
         free(rays);
         free(hits);
         if (!noticed)
-            fail_msg("nobody notices '%s'", mutants[i][1]);
+            fail_msg("nobody notices %s", test_mutations[mutants[i]].name);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Whole pictures: every lane width, tiling, rounding and odd size gives the scalar path's hits to
  * the bit, and its colours within a step. */
 #define _GNU_SOURCE
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <stdio.h>
@@ -141,7 +142,7 @@ static void mixed_scenes(void **state)
 static void every_way_of_rounding(void **state)
 {
     (void)state;
-    static const char *const ways[] = {"#define RT_ROUNDING 1", "#define RT_ROUNDING 2"};
+    static const test_mutant ways[] = {MUTANT_ROUNDING_BY_DOUBLE, MUTANT_ROUNDING_BY_FMA};
     const rt_device *device = test_device();
     rt_scene scene;
     a_mixed_scene("", &scene);
@@ -152,11 +153,8 @@ static void every_way_of_rounding(void **state)
         }
         static const int widths[] = {1, 16};
         for (int w = 0; w < 2; ++w) {
-            char replacement[80];
-            snprintf(replacement, sizeof replacement, "#undef RT_ROUNDING\n%s\n#ifndef RT_ROUNDING",
-                     ways[way]);
             const rt_render_options options = {.lanes = widths[w]};
-            test_mutate_kernels("options.h", "#ifndef RT_ROUNDING", replacement);
+            test_mutate_kernels(ways[way]);
             assert_equal_to_scalar(&scene, &options);
             test_restore_kernels();
         }

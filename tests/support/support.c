@@ -5,12 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "common/file.h"
-#include "opencl/kernel_text.h"
 #include "reference/scalar.h"
 #include "scene_file/read.h"
 
@@ -127,11 +125,11 @@ void test_draw_scalar(const rt_scene *scene, rt_image *image)
     assert_good(rt_scalar_float_render(scene, image, NULL, &status), &status);
 }
 
-static char folder[32];
+static char folder[256];
 
 static void remove_folder(void)
 {
-    char command[128];
+    char command[600];
     snprintf(command, sizeof command, "chmod -R u+w %s; rm -rf %s", folder, folder);
     if (system(command) != 0)
         fprintf(stderr, "%s is left behind\n", folder);
@@ -140,7 +138,8 @@ static void remove_folder(void)
 const char *test_folder(void)
 {
     if (!folder[0]) {
-        snprintf(folder, sizeof folder, "/tmp/rt-test-XXXXXX");
+        const char *where = getenv("TMPDIR");
+        snprintf(folder, sizeof folder, "%s/rt-test-XXXXXX", where && *where ? where : "/tmp");
         assert_non_null(mkdtemp(folder));
         atexit(remove_folder);
     }
@@ -149,7 +148,7 @@ const char *test_folder(void)
 
 const char *test_path(const char *name)
 {
-    static char paths[16][256];
+    static char paths[16][512];
     static int next;
     char *path = paths[next++ % 16];
     snprintf(path, sizeof paths[0], "%s/%s", test_folder(), name);
@@ -192,47 +191,4 @@ int test_run(const char *command, char *errors, size_t size)
         free(text);
     }
     return WIFEXITED(result) ? WEXITSTATUS(result) : 128 + WTERMSIG(result);
-}
-
-/* Makes the folders on the way to a file below `root`. */
-static void make_folders(const char *root, const char *name)
-{
-    char path[300];
-    mkdir(root, 0777);
-    for (const char *slash = strchr(name, '/'); slash; slash = strchr(slash + 1, '/')) {
-        snprintf(path, sizeof path, "%s/%.*s", root, (int)(slash - name), name);
-        mkdir(path, 0777);
-    }
-}
-
-void test_mutate_kernels(const char *file, const char *from, const char *to)
-{
-    char target[300];
-    const char *to_folder = test_path("kernels");
-    bool found = false;
-    for (const char *const *name = rt_kernel_names; *name; ++name) {
-        char source[300];
-        const char *slash = strrchr(*name, '/');
-        snprintf(source, sizeof source, "kernels/%s", *name);
-        snprintf(target, sizeof target, "%s/%s", to_folder, *name);
-        make_folders(to_folder, *name);
-        char *text = test_read_file(source, NULL);
-        assert_non_null(text);
-        const bool is_meant = strcmp(slash ? slash + 1 : *name, file) == 0;
-        const char *at = is_meant ? strstr(text, from) : NULL;
-        char *changed = NULL;
-        found = found || at;
-        assert_true(asprintf(&changed, "%.*s%s%s", at ? (int)(at - text) : 0, text, at ? to : "",
-                             at ? at + strlen(from) : text) >= 0);
-        test_write_text(target, changed);
-        free(changed);
-        free(text);
-    }
-    assert_true(found);
-    setenv("RT_KERNELS", to_folder, 1);
-}
-
-void test_restore_kernels(void)
-{
-    unsetenv("RT_KERNELS");
 }

@@ -54,7 +54,7 @@ void test_draw(const rt_scene *scene, const rt_render_options *options, rt_image
 /* The same, by the scalar float path. */
 void test_draw_scalar(const rt_scene *scene, rt_image *image);
 
-/* A fresh folder that is removed, with what is in it, when the process ends. */
+/* A fresh folder, in TMPDIR or /tmp, that is removed, with what is in it, when the process ends. */
 const char *test_folder(void);
 /* A path in that folder; the text lives until the 16th call after it. */
 const char *test_path(const char *name);
@@ -70,10 +70,5 @@ int test_run(const char *command, char *errors, size_t size);
  * how far something is. How soon that is depends on the machine. */
 #define TEST_WAIT_FOR_PROGRESS                                                                     \
     "for i in $(seq 3000); do grep -q ' gone' $T/errors.log && break; sleep 0.1; done"
-
-/* Copies the kernels to a fresh folder with `from` replaced by `to` in one file, which must contain
- * it, and makes RT_KERNELS name that folder until test_restore_kernels. */
-void test_mutate_kernels(const char *file, const char *from, const char *to);
-void test_restore_kernels(void);
 
 #endif
