@@ -154,6 +154,16 @@ test-processors: deps deps-processors ## renders as processors with AVX2 and wit
 	$(remake) rt
 	@$(in_source) tests/processors $(call from_source,./rt) $(call from_source,$(BUILD)/processors)
 
+# Kernels that are wrong by one token, and those that no test of their stage notices:
+# make mutants FILE=kernels/stages/shade.cl MOST=40 SEED=1
+FILE ?= $(patsubst $(SRC)%,%,$(filter %.cl %/real.h,$(KERNELS)))
+MOST ?= 3
+SEED ?= 1
+
+.PHONY: mutants
+mutants: rt $(TESTS) ## changes kernels by a token and tells what no test notices; FILE= MOST= SEED=
+	@$(in_source) RT=$(call from_source,./rt) BUILD=$(call from_source,$(BUILD)) tests/mutants $(MOST) $(SEED) $(FILE)
+
 $(BUILD)/tests/%.o: $(SRC)tests/%.c $(FLAGS)
 	$(call say,CC)
 	@mkdir -p $(@D)

@@ -148,6 +148,47 @@ static void phong_alone_launches_four_kernels(void **state)
     rt_scene_clear(&scene);
 }
 
+/* One pixel whose paths are known: two lights' shadows and seven probes at its one hit; nine mirror
+ * rays of weights from 1/2 to 2^-9; as many refracted ones through twelve panes. */
+static void rays_are_counted(void **state)
+{
+    (void)state;
+#define PANE(z) "triangle a -99 -99 " z " b 99 -99 " z " c 0 99 " z " material m\n"
+    static const struct {
+        const char *text;
+        size_t shadow, occlusion, reflection, refraction;
+    } cases[] = {
+        {"light directional direction 0 0 -1 shadow on\nlight point at 1 1 1 shadow on\n"
+         "light point at 1 1 1 shadow off\nocclusion samples 7 distance 1\n"
+         "material m kd 1 1 1\n" PANE("-1"),
+         2, 7, 0, 0},
+        {"depth 20\nmaterial m reflect 0.5\n" PANE("-1") PANE("1"), 0, 0, 9, 0},
+        {"depth 20\nmaterial m transmit 0.5 ior 1\n" PANE("-1") PANE("-2") PANE("-3") PANE("-4")
+             PANE("-5") PANE("-6") PANE("-7") PANE("-8") PANE("-9") PANE("-10") PANE("-11")
+                 PANE("-12"),
+         0, 0, 0, 9},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        rt_scene scene;
+        rt_image image;
+        rt_status status = RT_STATUS_INIT;
+        test_scene(&scene, cases[i].text);
+        scene.width = scene.height = 1;
+        assert_good(rt_image_init(&image, 1, 1, false, &status), &status);
+        rt_renderer *renderer = test_renderer(&scene, &(rt_render_options){0});
+        assert_good(rt_renderer_draw(renderer, &image, NULL, &status), &status);
+        const rt_render_times *times = rt_renderer_times(renderer);
+        assert_int_equal(times->shadow_rays, cases[i].shadow);
+        assert_int_equal(times->occlusion_rays, cases[i].occlusion);
+        assert_int_equal(times->reflection_rays, cases[i].reflection);
+        assert_int_equal(times->refraction_rays, cases[i].refraction);
+        rt_renderer_free(renderer);
+        rt_image_clear(&image);
+        rt_scene_clear(&scene);
+    }
+#undef PANE
+}
+
 static void assert_same_pictures(const rt_image *a, const rt_image *b)
 {
     const size_t pixels = (size_t)a->width * (size_t)a->height;
@@ -302,6 +343,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_each_effect_adds),
         cmocka_unit_test(phong_alone_launches_four_kernels),
+        cmocka_unit_test(rays_are_counted),
         cmocka_unit_test(tiles_and_lanes_do_not_show),
         cmocka_unit_test(all_effects_compiled_in),
         cmocka_unit_test(depth_0),
