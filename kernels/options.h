@@ -59,18 +59,16 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #endif
 
 /* Effects that are compiled in are switched by bits of an argument `flags`, RT_FLAG of effects.def;
- * without RT_SWITCHED what is compiled in is on. */
+ * without RT_SWITCHED what is compiled in is on, and ON() is a constant: of an `if` the compiler's
+ * first look leaves one branch. */
 #ifndef RT_SWITCHED
 #define RT_SWITCHED 0
 #endif
 #if RT_SWITCHED != 0 && RT_SWITCHED != 1
 #error "RT_SWITCHED must be 0 or 1"
 #endif
-#if RT_SWITCHED
-#define ON(effect) ((flags & RT_FLAG(RT_EFFECT_##effect)) != 0)
-#else
-#define ON(effect) RT_##effect
-#endif
+#define ON(effect)                                                                                 \
+    (RT_##effect && (!RT_SWITCHED || (flags & RT_FLAG(RT_EFFECT_##effect)) != 0))
 
 /* Rays that a work-item of the stages beside trace looks after: a block where vectors are wide. */
 #define RT_ITEM_RAYS (RT_LANES > 1 ? RT_BLOCK_RAYS : 1)

@@ -68,8 +68,9 @@ typedef RT_PASTE(RT_BITS, RT_LANES) mask;
 #define SELECT(off, on, m) select(off, on, m)
 #endif
 
-/* Functions of the trace stage are parts of one loop: as calls they would spill every vector. */
-#define INLINE __attribute__((always_inline))
+/* Functions of the trace stage are parts of one loop: as calls they would spill every vector. Those
+ * that a variant has no use for cost nothing. */
+#define INLINE static __attribute__((always_inline))
 
 /* Whether a lane is on, where the compiler has no reduction of its own, which is one instruction.
  * Written out because PoCL's any() tests lane after lane with a branch each; as bytes the lanes fit

@@ -1,7 +1,6 @@
 /* Random points, the same on every device: integers, then correctly rounded arithmetic. They depend
  * on the pixel, on what they are for and on the sample's number, and on nothing else. */
 
-#if RT_RANDOM
 #if RT_ACCURACY == 3
 #define LITERAL(x) x
 #else
@@ -74,7 +73,6 @@ INLINE void stratified(const strata *g, int s, uint seed, uint dimension, number
     *v = DIVIDE_1((number)row + unit_interval(scramble(seed + 2 * (uint)s + 1)), (number)g->rows);
 }
 
-#if RT_LENS || RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION
 /* From the unit square to the unit disk, equal areas to equal areas (Shirley and Chiu 1997). Sine
  * and cosine for at most an eighth of a turn by Taylor's series: the error is below 1e-7. */
 INLINE void disk(number u, number v, number *x, number *y)
@@ -101,9 +99,7 @@ INLINE void disk(number u, number v, number *x, number *y)
     *x = r * (flat ? cosine : sine);
     *y = r * (flat ? sine : cosine);
 }
-#endif
 
-#if RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION
 /* Two unit vectors that stand on the unit vector n and on each other (Duff et al. 2017). */
 INLINE void frame_about(vec3 n, vec3 *t1, vec3 *t2)
 {
@@ -113,5 +109,3 @@ INLINE void frame_about(vec3 n, vec3 *t1, vec3 *t2)
     *t1 = (vec3){fma(s * (n.x * n.x), a, (number)1.0f), s * b, -s * n.x};
     *t2 = (vec3){b, fma(n.y * n.y, a, s), -n.y};
 }
-#endif
-#endif

@@ -18,7 +18,6 @@ INLINE pixel tile_pixel(rt_tile tile)
     return p;
 }
 
-#if RT_NEXT || RT_RANDOM
 /* The same of any place in the tile's arrays. */
 INLINE pixel slot_pixel(rt_tile tile, int slot)
 {
@@ -31,7 +30,6 @@ INLINE pixel slot_pixel(rt_tile tile, int slot)
     p.inside = (p.column < tile.width) & (p.row < tile.height);
     return p;
 }
-#endif
 
 /* Where a loop does not become one of vectors, that is no mistake. */
 #ifdef __clang__

@@ -1,6 +1,5 @@
 /* What ka and kd are multiplied by where a material has a checker or a picture. */
 
-#if RT_CHECKER
 /* Whether a point is in one of every two cells; cells of side `cell` lie about the whole multiples
  * of it, so that a floor at one is within cells and not on their border. */
 INLINE int in_odd_cell(vec3 point, number cell)
@@ -12,9 +11,7 @@ INLINE int in_odd_cell(vec3 point, number cell)
     /* The parity of a whole number of any size. */
     return sum - (number)2.0f * floor(sum * half_) > half_;
 }
-#endif
 
-#if RT_TEXTURE
 /* Pictures and what says where on them a point is. */
 typedef struct pictures {
     __global const int *uvs_of; /* record of each triangle in `uvs`, -1 for none */
@@ -40,17 +37,14 @@ INLINE void picture_point(const pictures *p, const traced *w, size_t i, int inde
                           number *x, number *y)
 {
     *x = *y = 0.0f;
-#if RT_SPHERES
-    if (index < w->sphere_count) {
+    if (RT_SPHERES && index < w->sphere_count) {
         const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
         const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);
         *x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
         *y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
         return;
     }
-#endif
-#if RT_TRIANGLES
-    const int record = p->uvs_of[index - w->sphere_count];
+    const int record = RT_TRIANGLES ? p->uvs_of[index - w->sphere_count] : -1;
     if (record < 0)
         return;
     __global const float *uv = p->uvs + (size_t)record * RT_UV_COMPONENTS;
@@ -59,7 +53,6 @@ INLINE void picture_point(const pictures *p, const traced *w, size_t i, int inde
     const number rest = (number)1.0f - u - v;
     *x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
     *y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
-#endif
 }
 
 /* A picture's colour at (x, y), once round the picture from 0 to 1. */
@@ -84,4 +77,3 @@ INLINE void picture_color(const pictures *p, const rt_texture t, int nearest, nu
     const vec3 d = SUB(vec3, above, below);
     *color = ADD_SCALED(d, g, below);
 }
-#endif

@@ -45,7 +45,6 @@ INLINE number side_toward(vec3 normal, vec3 direction)
  * making vectors across rays. */
 #define SUM_OF_SIZES(a, b, c) (fabs(a) + ((b) < (number)0.0f ? -(b) : (b)) + fabs(c))
 
-#if RT_SPHERES
 INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 origin,
                            vec3 direction, surface *s)
 {
@@ -60,23 +59,21 @@ INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 or
         (number)RT_START_BOUND * EXTENT_ALONG(normal, fma(radius, fabs(normal.x), fabs(center.x)),
                                               fma(radius, fabs(normal.y), fabs(center.y)),
                                               fma(radius, fabs(normal.z), fabs(center.z)));
-#if RT_ACCURACY >= 2
-    const number lift =
-        (number)RT_POINT_BOUND * EXTENT_ALONG(normal, fabs(origin.x) + fabs(s->point.x),
-                                              fabs(origin.y) + fabs(s->point.y),
-                                              fabs(origin.z) + fabs(s->point.z));
-    const int is_better = lift < s->lift;
-    s->start = (vec3){is_better ? s->point.x : s->start.x, is_better ? s->point.y : s->start.y,
-                      is_better ? s->point.z : s->start.z};
-    s->lift = is_better ? lift : s->lift;
-#endif
+    if (RT_ACCURACY >= RT_ROBUST) {
+        const number lift =
+            (number)RT_POINT_BOUND * EXTENT_ALONG(normal, fabs(origin.x) + fabs(s->point.x),
+                                                  fabs(origin.y) + fabs(s->point.y),
+                                                  fabs(origin.z) + fabs(s->point.z));
+        const int is_better = lift < s->lift;
+        s->start = (vec3){is_better ? s->point.x : s->start.x, is_better ? s->point.y : s->start.y,
+                          is_better ? s->point.z : s->start.z};
+        s->lift = is_better ? lift : s->lift;
+    }
     s->facing = SCALE(normal, side);
     s->normal = SCALE(normal, side); /* no copy: a struct in memory ends vectorising */
     s->outside = side > 0.0f;
 }
-#endif
 
-#if RT_TRIANGLES
 /* The normals are made from the edges as they are and made unit last: made unit before the
  * barycentric test they would shrink the triangle, left as they are they would turn highlights
  * white. */
@@ -108,9 +105,7 @@ INLINE void triangle_surface(__global const rt_triangle_block *t, int k, number 
     s->normal = SCALE(normal, side);
     s->outside = side > 0.0f;
 }
-#endif
 
-#if RT_SMOOTH
 /* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
  * the same side; leaves it where the vertex normals cancel. */
 INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *normal)
@@ -126,26 +121,19 @@ INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *nor
     if (has_direction)
         *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
 }
-#endif
 
 /* What the trace stage leaves behind, and the primitives that it speaks of: parameters of the
- * kernels that look at hits, and those in one. */
-#if RT_SMOOTH
-#define SMOOTH_PARAMETERS , __global const int *normals_of, __global const float *normals
-#define SMOOTH_FIELDS , normals_of, normals
-#else
-#define SMOOTH_PARAMETERS
-#define SMOOTH_FIELDS
-#endif
+ * kernels that look at hits, and those in one. The normals are there where some are smooth. */
 #define TRACED_PARAMETERS                                                                          \
     const int stride, __global const number *rays, __global const int *hit_index,                  \
         __global const int *hit_slot, __global const number *hit_array,                            \
         __global const rt_sphere_block *spheres, const int sphere_count,                           \
-        __global const rt_triangle_block *triangles SMOOTH_PARAMETERS
+        __global const rt_triangle_block *triangles, __global const int *normals_of,               \
+        __global const float *normals
 #define TRACED                                                                                     \
     {                                                                                              \
-        (size_t) stride, rays, hit_index, hit_slot, hit_array, spheres, sphere_count,              \
-            triangles SMOOTH_FIELDS                                                                \
+        (size_t) stride, rays, hit_index, hit_slot, hit_array, spheres, sphere_count, triangles,   \
+            normals_of, normals                                                                    \
     }
 typedef struct traced {
     size_t step;
@@ -155,13 +143,10 @@ typedef struct traced {
     __global const rt_sphere_block *spheres;
     int sphere_count;
     __global const rt_triangle_block *triangles;
-#if RT_SMOOTH
     __global const int *normals_of;
     __global const float *normals;
-#endif
 } traced;
 
-#if RT_SPHERES || RT_TRIANGLES
 /* The surface that ray i, which goes along `direction`, has met as hit `index`; for a miss and any
  * index something. */
 INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, surface *s)
@@ -172,27 +157,17 @@ INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, sur
     const vec3 origin = LOAD3(w->rays, step, i);
     const number t = w->hit_array[RT_HIT_T * step + i];
     s->point = ADD_SCALED(direction, t, origin);
-#if RT_SPHERES
-    if (index < w->sphere_count)
+    if (RT_SPHERES && index < w->sphere_count) {
         sphere_surface(w->spheres + slot / RT_BLOCK_PRIMITIVES, place, origin, direction, s);
-#endif
-#if RT_SPHERES && RT_TRIANGLES
-    else
-#endif
-#if RT_TRIANGLES
-    {
+    } else if (RT_TRIANGLES) {
         const number u = w->hit_array[RT_HIT_U * step + i];
         const number v = w->hit_array[RT_HIT_V * step + i];
         triangle_surface(w->triangles + slot / RT_BLOCK_PRIMITIVES, place, u, v, direction, s);
-#if RT_SMOOTH
-        const int record = w->normals_of[index - w->sphere_count];
+        const int record = RT_SMOOTH ? w->normals_of[index - w->sphere_count] : -1;
         if (record >= 0)
             smooth_normal(w->normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s->normal);
-#endif
     }
-#endif
 }
-#endif
 
 /* Where a ray starts that leaves the surface on the side that `side` points to. */
 INLINE void leave(const surface *s, const vec3 *side, vec3 *origin)

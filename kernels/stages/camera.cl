@@ -1,7 +1,6 @@
 /* Stage 1: the primary rays of a tile, unit directions through the pixels' centres or, of several
  * samples, through points about them. */
 
-#if RT_ANTIALIAS
 /* From a point of the unit interval to an offset from the pixel's centre, in pixels: even over the
  * pixel, or like a tent over it and half of each neighbour. */
 INLINE number filtered(number t, const int tent)
@@ -11,38 +10,20 @@ INLINE number filtered(number t, const int tent)
                                              : (number)1.0f - ROOT_1((number)2.0f - twice);
     return tent ? side : t - (number)0.5f;
 }
-#endif
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays
-#if RT_ANTIALIAS || RT_LENS || RT_NEXT
-          ,
-          const rt_turn turn
-#endif
-#if RT_ANTIALIAS || RT_LENS
-          ,
-          const int samples, const int flags
-#endif
-#if RT_SUM
-          ,
-          __global float *colors
-#endif
-#if RT_NEXT
-          ,
-          __global int *home, __global number *paths, __global int *marks
-#endif
-)
+rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
+          const rt_turn turn, const int samples, const int flags, __global float *colors,
+          __global int *home, __global number *paths, __global int *marks)
 {
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
     /* Whole numbers, exact in float; the pixel size is in the frame's vectors. */
     number across = (number)(2 * (tile.x + p.column) + 1 - frame.width);
     number upward = (number)(frame.height - 1 - 2 * (tile.y + p.row));
-#if RT_ANTIALIAS || RT_LENS
     strata set;
-    make_strata(samples, &set);
-#endif
-#if RT_ANTIALIAS
+    if (RT_ANTIALIAS || RT_LENS)
+        make_strata(samples, &set);
     if (ON(ANTIALIAS)) {
         number u, v;
         stratified(&set, turn.sample,
@@ -53,14 +34,12 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
         across = across + (dx + dx);
         upward = upward - (dy + dy);
     }
-#endif
     const vec3 right = {frame.right_x, frame.right_y, frame.right_z};
     const vec3 up = {frame.up_x, frame.up_y, frame.up_z};
     const vec3 forward = {frame.forward_x, frame.forward_y, frame.forward_z};
     const vec3 level = ADD_SCALED(up, upward, forward);
     vec3 through = ADD_SCALED(right, across, level);
     vec3 origin = {frame.ox, frame.oy, frame.oz};
-#if RT_LENS
     if (ON(LENS)) {
         number u, v, dx, dy;
         stratified(&set, turn.sample, seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_LENS),
@@ -75,20 +54,19 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
         through = ADD_SCALED(through, focus, back);
         origin = (vec3){origin.x + lens.x, origin.y + lens.y, origin.z + lens.z};
         make_unit(&through);
-    } else
-#endif
+    } else {
         through = SCALE(through, RECIPROCAL_LENGTH(through));
+    }
     const size_t step = (size_t)stride;
     STORE3(origin, rays + RT_RAY_OX * step, step, i);
     STORE3(through, rays + RT_RAY_DX * step, step, i);
     rays[RT_RAY_TMIN * step + i] = 0.0f;
     /* A ray that hangs over the tile's edge ends before it begins. */
     rays[RT_RAY_TMAX * step + i] = p.inside ? INFINITY : -1.0f;
-#if RT_SUM
-    if (turn.sample == 0)
+    if (RT_SUM && turn.sample == 0)
         colors[i] = colors[step + i] = colors[2 * step + i] = 0.0f;
-#endif
-#if RT_NEXT
+    if (!RT_NEXT)
+        return;
     home[i] = (int)i;
     paths[RT_PATH_WEIGHT * step + i] = 1.0f;
     paths[RT_PATH_TINT_R * step + i] = 1.0f;
@@ -97,5 +75,4 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     marks[RT_MARK_BOUNCE * step + i] = 0;
     marks[RT_MARK_MEDIUM * step + i] = RT_OUTSIDE;
     marks[RT_MARK_WAITING * step + i] = 0;
-#endif
 }

@@ -4,7 +4,6 @@
  * Where a hit sends out two, the refracted one goes first and the mirror ray waits, at most one at
  * each bounce, until nothing is left of the other. */
 
-#if RT_NEXT
 /* A ray that may be followed. */
 typedef struct next_ray {
     vec3 origin, direction;
@@ -25,7 +24,6 @@ INLINE void mirror_image(vec3 d, const surface *s, vec3 *out)
     }
 }
 
-#if RT_REFRACT
 /* Snell's law about the normal n, which is on the side of -d, at the ratio eta of the indices of
  * refraction, and Fresnel's part of unpolarised light that is reflected. Returns 0 for total
  * reflection. */
@@ -62,7 +60,6 @@ INLINE int refracted(vec3 d, const surface *s, number ior, vec3 *out, number *re
     }
     return bend(d, s->facing, flat_cosine, eta, out, reflected);
 }
-#endif
 
 INLINE void store_next(__global number *next_rays, __global int *next_home, size_t step, size_t i,
                        int slot, __global number *paths, __global int *marks, const next_ray *r)
@@ -80,7 +77,6 @@ INLINE void store_next(__global number *next_rays, __global int *next_home, size
     marks[RT_MARK_IS_REFRACTED * step + at] = r->is_refracted;
 }
 
-#if RT_REFRACT
 /* Place k of a path's waiting rays; component c of the first at c * step. */
 #define WAITING_AT(k, slot) ((size_t)(k)*RT_WAITING_COMPONENTS * step + (size_t)(slot))
 #define WAITING_MARKS_AT(k, slot) ((size_t)(k)*RT_WAITING_MARKS * step + (size_t)(slot))
@@ -118,7 +114,6 @@ INLINE int pop_waiting(__global const number *waiting, __global const int *waiti
     r->is_refracted = 0;
     return 1;
 }
-#endif
 
 /* The rays that a hit sends out: whether each is worth following, and what it is. */
 INLINE int send_mirrored(vec3 d, const surface *s, number part, const next_ray *from, next_ray *r)
@@ -135,7 +130,6 @@ INLINE int send_mirrored(vec3 d, const surface *s, number part, const next_ray *
     return 1;
 }
 
-#if RT_REFRACT
 /* `part` is what is left for the mirror ray: what Fresnel's law says, and what the material itself
  * mirrors. */
 INLINE int send_refracted(vec3 d, const surface *s, __global const rt_material *m, int material,
@@ -158,18 +152,14 @@ INLINE int send_refracted(vec3 d, const surface *s, __global const rt_material *
     leave(s, &behind, &r->origin);
     return 1;
 }
-#endif
 
+#if RT_NEXT
 /* The stage after shade where rays go on: each ray's next one, or the end of it. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
         const int depth, __global const int *home, __global number *paths, __global int *marks,
-        __global number *next_rays, __global int *next_home
-#if RT_REFRACT
-        ,
-        __global number *waiting, __global int *waiting_marks
-#endif
-)
+        __global number *next_rays, __global int *next_home, __global number *waiting,
+        __global int *waiting_marks)
 {
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
@@ -181,7 +171,6 @@ rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_ma
     from.bounce = marks[RT_MARK_BOUNCE * step + (size_t)slot];
     from.medium = marks[RT_MARK_MEDIUM * step + (size_t)slot];
     int has = 0;
-#if RT_SPHERES || RT_TRIANGLES
     const int index = hit_index[i];
     if (is_alive && index != RT_MISS && from.bounce < depth) {
         const traced w = TRACED;
@@ -191,23 +180,16 @@ rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_ma
         const int material = material_of[index];
         __global const rt_material *m = materials + material;
         number part = m->reflect;
-#if RT_REFRACT
         next_ray aside;
-        has = send_refracted(direction, &s, m, material, &from, &r, &part);
+        has = RT_REFRACT && send_refracted(direction, &s, m, material, &from, &r, &part);
         if (send_mirrored(direction, &s, part, &from, has ? &aside : &r)) {
             if (has)
                 push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
             has = 1;
         }
-#else
-        has = send_mirrored(direction, &s, part, &from, &r);
-#endif
     }
-#endif
-#if RT_REFRACT
-    if (is_alive && !has)
+    if (RT_REFRACT && is_alive && !has)
         has = pop_waiting(waiting, waiting_marks, marks, step, slot, &r);
-#endif
     if (has) {
         store_next(next_rays, next_home, step, i, slot, paths, marks, &r);
     } else {

@@ -2,7 +2,6 @@
  * or round about, and what they found. Of `turn.count` samples at a time the probes lie sample by
  * sample, each in the order of the rays that they are for. */
 
-#if RT_PROBES
 /* Probe j; one whose tmax is below 0 ends before it begins. Pointers, because a struct that is
  * passed by value comes as a small vector on some machines, and that ends vectorising. */
 INLINE void store_probe(__global number *probes, size_t step, size_t j, const vec3 *origin,
@@ -20,7 +19,6 @@ INLINE void store_no_probe(__global number *probes, size_t step, size_t j)
     store_probe(probes, step, j, &nowhere, &ahead, -1.0f);
 }
 
-#if RT_SHADOWS == 2 || RT_AMBIENT_OCCLUSION
 /* The samples that a launch is for. */
 typedef struct probe_set {
     strata cells;
@@ -28,21 +26,15 @@ typedef struct probe_set {
     uint dimension;
     int sample;       /* of the set */
     int pixel_sample; /* of the pixel */
-#if RT_NEXT
     __global const int *home;
     __global const int *marks;
-#endif
 } probe_set;
 
 /* The set's sample for ray i as a point on the unit disk. */
 INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, number *y)
 {
-#if RT_NEXT
-    const int slot = p->home[i];
-    const int bounce = p->marks[RT_MARK_BOUNCE * step + (size_t)slot];
-#else
-    const int slot = (int)i, bounce = 0;
-#endif
+    const int slot = RT_NEXT ? p->home[i] : (int)i;
+    const int bounce = RT_NEXT ? p->marks[RT_MARK_BOUNCE * step + (size_t)slot] : 0;
     const pixel at = slot_pixel(p->tile, slot);
     const uint dimension = RT_DIMENSION(p->dimension, bounce, p->pixel_sample);
     number u, v;
@@ -51,22 +43,12 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
     disk(u, v, x, y);
 }
 
-#if RT_NEXT
 #define PROBE_SET_PARAMETERS const rt_tile tile, __global const int *home, __global const int *marks
 #define PROBE_SET(base, turn)                                                                      \
     {                                                                                              \
         .tile = tile, .dimension = (base), .sample = (turn).first + SAMPLE_OF(turn),               \
         .pixel_sample = (turn).sample, .home = home, .marks = marks                                \
     }
-#else
-#define PROBE_SET_PARAMETERS const rt_tile tile
-#define PROBE_SET(base, turn)                                                                      \
-    {                                                                                              \
-        .tile = tile, .dimension = (base), .sample = (turn).first + SAMPLE_OF(turn),               \
-        .pixel_sample = (turn).sample                                                              \
-    }
-#endif
-#endif
 
 /* A work-item's first ray and first probe, and which of the launch's samples its probes are. */
 #define SAMPLE_OF(turn) ((int)get_global_id(0) / ((turn).rays / RT_ITEM_RAYS))
@@ -74,25 +56,18 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
     const int items = (turn).rays / RT_ITEM_RAYS;                                                  \
     const size_t first = (size_t)((int)get_global_id(0) % items) * RT_ITEM_RAYS;                   \
     const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS
-#endif
 
-#if RT_SHADOWS
 /* How much of the way to a light a probe goes: a part of 2^-12 is left out. */
 #define RT_LIGHT_REACH (1.0f - 0x1p-12f)
 
 /* A probe from the hit of ray i to a light; it starts on the light's side of the surface. */
 INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *light,
-#if RT_SHADOWS == 2
-                         const probe_set *set,
-#endif
-                         __global number *probes, size_t j)
+                         const probe_set *set, __global number *probes, size_t j)
 {
     const size_t step = w->step;
     const int index = w->hit_index[i];
     const int is_hit = index != RT_MISS;
-    vec3 origin = {0.0f, 0.0f, 0.0f}, l = {0.0f, 0.0f, 1.0f};
-    number tmax = -1.0f;
-#if RT_SPHERES || RT_TRIANGLES
+    vec3 origin, l;
     const vec3 direction = LOAD3(w->rays + RT_RAY_DX * step, step, i);
     surface s;
     surface_of(w, i, is_hit ? index : 0, direction, &s);
@@ -101,8 +76,7 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
     l = ADD_SCALED(s.point, away, place);
     const int on = make_unit_if_any(&l) & is_hit;
     leave(&s, &l, &origin);
-#if RT_SHADOWS == 2
-    if (light->radius > 0.0f) {
+    if (RT_SHADOWS == 2 && light->radius > 0.0f) {
         number x, y;
         disk_sample(set, step, i, &x, &y);
         vec3 t1, t2;
@@ -111,7 +85,6 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
         const vec3 beside = ADD_SCALED(t1, right, place);
         place = ADD_SCALED(t2, up, beside);
     }
-#endif
     const int is_point = light->w != 0.0f;
     const vec3 to = SUB(vec3, place, origin);
     vec3 aim = to;
@@ -119,43 +92,31 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
     l.x = is_point ? aim.x : l.x;
     l.y = is_point ? aim.y : l.y;
     l.z = is_point ? aim.z : l.z;
-    tmax = is_point ? DOT(to, aim) * (number)RT_LIGHT_REACH : (number)INFINITY;
-    tmax = on ? tmax : (number)-1.0f;
-#endif
-    store_probe(probes, step, j, &origin, &l, tmax);
+    const number tmax = is_point ? DOT(to, aim) * (number)RT_LIGHT_REACH : (number)INFINITY;
+    store_probe(probes, step, j, &origin, &l, on ? tmax : (number)-1.0f);
 }
 
+#if RT_SHADOWS
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *lights,
-               __global number *probes
-#if RT_SHADOWS == 2
-               ,
-               PROBE_SET_PARAMETERS
-#endif
-)
+               __global number *probes, PROBE_SET_PARAMETERS)
 {
     const traced w = TRACED;
     __global const rt_light *light = lights + turn.light;
     PROBE_ITEM(turn);
-#if RT_SHADOWS == 2
     probe_set set = PROBE_SET(RT_DIMENSION_LIGHT + (uint)turn.light, turn);
-    make_strata(light->samples, &set.cells);
-#endif
+    if (RT_SHADOWS == 2)
+        make_strata(light->samples, &set.cells);
     if (!any_hit(hit_index, first)) {
         EACH_RAY(k)
         store_no_probe(probes, w.step, first_probe + k);
         return;
     }
     EACH_RAY(k)
-    shadow_probe(&w, first + k, light,
-#if RT_SHADOWS == 2
-                 &set,
-#endif
-                 probes, first_probe + k);
+    shadow_probe(&w, first + k, light, &set, probes, first_probe + k);
 }
 #endif
 
-#if RT_AMBIENT_OCCLUSION
 /* A probe from the hit of ray i into the half space above it, more of them straight up than aside
  * (Malley's method), so that each stands for as much light. */
 INLINE void ambient_probe(const traced *w, size_t i, number distance, const probe_set *set,
@@ -164,9 +125,6 @@ INLINE void ambient_probe(const traced *w, size_t i, number distance, const prob
     const size_t step = w->step;
     const int index = w->hit_index[i];
     const int is_hit = index != RT_MISS;
-    vec3 origin = {0.0f, 0.0f, 0.0f}, out = {0.0f, 0.0f, 1.0f};
-    int on = 0;
-#if RT_SPHERES || RT_TRIANGLES
     const vec3 direction = LOAD3(w->rays + RT_RAY_DX * step, step, i);
     surface s;
     surface_of(w, i, is_hit ? index : 0, direction, &s);
@@ -178,14 +136,15 @@ INLINE void ambient_probe(const traced *w, size_t i, number distance, const prob
     frame_about(s.normal, &t1, &t2);
     const vec3 right = SCALE(t1, x);
     const vec3 flat = ADD_SCALED(t2, y, right);
-    out = ADD_SCALED(s.normal, z, flat);
+    const vec3 out = ADD_SCALED(s.normal, z, flat);
     /* Below the surface it counts as hindered. */
-    on = is_hit & (DOT(out, s.facing) > (number)0.0f);
+    const int on = is_hit & (DOT(out, s.facing) > (number)0.0f);
+    vec3 origin;
     leave(&s, &out, &origin);
-#endif
     store_probe(probes, step, j, &origin, &out, on ? distance : (number)-1.0f);
 }
 
+#if RT_AMBIENT_OCCLUSION
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
                 __global number *probes, PROBE_SET_PARAMETERS)

@@ -2,28 +2,17 @@
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
-           __global float *picture
-#if RT_ANTIALIAS
-           ,
-           const int samples
-#endif
-#if RT_ANTIALIAS && RT_SWITCHED
-           ,
-           const int flags
-#endif
-)
+           __global float *picture, const int samples, const int flags)
 {
     const pixel p = tile_pixel(tile);
     if (!p.inside)
         return;
     vec3 color = LOAD3(colors, stride, get_global_id(0));
-#if RT_ANTIALIAS
     if (ON(ANTIALIAS)) {
         color.x = color.x / (number)samples;
         color.y = color.y / (number)samples;
         color.z = color.z / (number)samples;
     }
-#endif
     __global float *out =
         picture + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
     out[0] = color.x;

@@ -50,43 +50,24 @@ typedef struct shading {
     int light_count;
     rt_surround surround;
     __global float *colors;
-#if RT_GRADIENT
     rt_gradient gradient;
-#endif
-#if RT_FOG
     rt_fog fog;
-#endif
-#if RT_TEXTURE
     pictures pictures;
-#endif
-#if RT_PROBES
     __global const int *open; /* a row a light; ambient light's comes after them */
-#endif
-#if RT_AMBIENT_OCCLUSION
     rt_crevice crevice;
-#endif
-#if RT_NEXT
     __global const int *home;
     __global number *paths;
     __global const int *marks;
-#endif
-#if RT_SWITCHED
     int flags;
-#endif
 } shading;
 
 /* Of a kernel that has these, for ON(). */
-#if RT_SWITCHED
 #define FLAGS_OF(w) const int flags = (w)->flags
-#else
-#define FLAGS_OF(w)
-#endif
 
 /* The background as seen along ray i. */
 INLINE void sky(const shading *w, size_t i, vec3 *color)
 {
     *color = (vec3){w->surround.background_r, w->surround.background_g, w->surround.background_b};
-#if RT_GRADIENT
     FLAGS_OF(w);
     if (ON(GRADIENT)) {
         const size_t step = w->hits.step;
@@ -98,10 +79,8 @@ INLINE void sky(const shading *w, size_t i, vec3 *color)
         const vec3 difference = SUB(vec3, top, *color);
         *color = ADD_SCALED(difference, rise, *color);
     }
-#endif
 }
 
-#if RT_SPHERES || RT_TRIANGLES
 /* The vector toward a light, unit. Returns 0 for a light exactly at the point, which has none. */
 INLINE int toward_light(__global const rt_light *light, vec3 point, vec3 *l)
 {
@@ -133,18 +112,14 @@ INLINE void add_light(__global const rt_light *light, __global const rt_material
     color->z = fma(light->b * free, fma((number)m->ks_b, specular, kd.z * diffuse), color->z);
 }
 
-#if RT_CHECKER || RT_TEXTURE
 /* What ka and kd of a material are multiplied by at a point. */
 INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
                     __global const rt_material *m, vec3 *tone)
 {
     FLAGS_OF(w);
     *tone = (vec3){1.0f, 1.0f, 1.0f};
-#if RT_CHECKER
     if (ON(CHECKER) && m->cell > 0.0f && in_odd_cell(s->point, (number)m->cell))
         *tone = (vec3){m->checker_r, m->checker_g, m->checker_b};
-#endif
-#if RT_TEXTURE
     if (ON(TEXTURE) && m->texture >= 0) {
         number x, y;
         vec3 picture;
@@ -152,9 +127,7 @@ INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
         picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, x, y, &picture);
         *tone = MULTIPLY(*tone, picture);
     }
-#endif
 }
-#endif
 
 /* The light that the surface sends back along ray i from its hit `index`. */
 INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
@@ -167,20 +140,18 @@ INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
     __global const rt_material *m = w->materials + w->material_of[index];
     vec3 ka = {m->ka_r, m->ka_g, m->ka_b};
     vec3 kd = {m->kd_r, m->kd_g, m->kd_b};
-#if RT_CHECKER || RT_TEXTURE
-    vec3 tone;
-    tone_at(w, i, index, &s, m, &tone);
-    ka = MULTIPLY(ka, tone);
-    kd = MULTIPLY(kd, tone);
-#endif
+    if (RT_CHECKER || RT_TEXTURE) {
+        vec3 tone;
+        tone_at(w, i, index, &s, m, &tone);
+        ka = MULTIPLY(ka, tone);
+        kd = MULTIPLY(kd, tone);
+    }
     const vec3 ambient = {w->surround.ambient_r, w->surround.ambient_g, w->surround.ambient_b};
     vec3 sum = MULTIPLY(ambient, ka);
-#if RT_AMBIENT_OCCLUSION
     if (ON(AMBIENT_OCCLUSION)) {
         const number part = (number)w->open[(size_t)w->light_count * step + i];
         sum = SCALE(sum, part / (number)w->crevice.samples);
     }
-#endif
 #if RT_LIGHTS >= 0
 #pragma unroll
     for (int k = 0; k < RT_LIGHTS; ++k) {
@@ -189,17 +160,13 @@ INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
 #endif
         __global const rt_light *light = w->lights + k;
         number free = 1.0f;
-#if RT_SHADOWS
         if ((ON(HARD_SHADOWS) || ON(SOFT_SHADOWS)) && light->shadow)
             free = (number)w->open[(size_t)k * step + i] / (number)light->samples;
-#endif
         add_light(light, m, kd, &s, direction, free, &sum);
     }
     *color = sum;
 }
-#endif
 
-#if RT_FOG
 /* What fog on a way of length t, infinite for a miss, leaves of a colour; `clear` is the part. */
 INLINE void veil(const rt_fog *fog, number t, vec3 *color, number *clear)
 {
@@ -208,17 +175,13 @@ INLINE void veil(const rt_fog *fog, number t, vec3 *color, number *clear)
     const vec3 thin = SCALE(grey, (number)1.0f - *clear);
     *color = ADD_SCALED(*color, *clear, thin);
 }
-#endif
 
-#if RT_ABSORB
 /* Beer's law; without absorption nothing is lost on an endless way either. */
 INLINE number left_after(number density, number t)
 {
     return density > (number)0.0f ? exp(-density * t) : (number)1.0f;
 }
-#endif
 
-#if RT_NEXT
 /* What a ray on its way adds to its pixel: `part` of a colour. The way's losses are put down for
  * the rays that go on. */
 INLINE void add_to_path(const shading *w, size_t i, vec3 color)
@@ -227,42 +190,37 @@ INLINE void add_to_path(const shading *w, size_t i, vec3 color)
     const size_t step = w->hits.step;
     const size_t slot = (size_t)w->home[i];
     vec3 tint = LOAD3(w->paths + RT_PATH_TINT_R * step, step, slot);
-#if RT_FOG || RT_ABSORB
-    const int medium = RT_REFRACT ? w->marks[RT_MARK_MEDIUM * step + slot] : RT_OUTSIDE;
+    int medium = RT_OUTSIDE;
+    if (RT_REFRACT)
+        medium = w->marks[RT_MARK_MEDIUM * step + slot];
     const number t = w->hits.hit_array[RT_HIT_T * step + i];
     number clear = 1.0f;
-#endif
-#if RT_ABSORB
     if (ON(ABSORB) && medium != RT_OUTSIDE) {
         __global const rt_material *in = w->materials + medium;
         tint.x *= left_after(in->absorb_r, t);
         tint.y *= left_after(in->absorb_g, t);
         tint.z *= left_after(in->absorb_b, t);
     }
-#endif
-#if RT_FOG
     if (ON(FOG) && medium == RT_OUTSIDE)
         veil(&w->fog, t, &color, &clear);
-#endif
     const vec3 part = SCALE(tint, w->paths[RT_PATH_WEIGHT * step + slot]);
     const vec3 sum = LOAD3(w->colors, step, slot);
     STORE3(((vec3){fma(part.x, color.x, sum.x), fma(part.y, color.y, sum.y),
                    fma(part.z, color.z, sum.z)}),
            w->colors, step, slot);
-#if RT_FOG || RT_ABSORB
-    tint = SCALE(tint, clear);
-    STORE3(tint, w->paths + RT_PATH_TINT_R * step, step, slot);
-#endif
+    if (RT_FOG || RT_ABSORB) {
+        tint = SCALE(tint, clear);
+        STORE3(tint, w->paths + RT_PATH_TINT_R * step, step, slot);
+    }
 }
-#endif
 
 /* Shades ray i; `may_hit` is 0 where it is known to hit nothing. */
 INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
 {
+    FLAGS_OF(w);
     const size_t step = w->hits.step;
     vec3 color;
     sky(w, i, &color);
-#if RT_SPHERES || RT_TRIANGLES
     if (may_hit) {
         /* Of a ray that misses, whatever comes of primitive 0 is dropped. */
         const int index = w->hits.hit_index[i];
@@ -273,58 +231,30 @@ INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
         color.y = is_hit ? lit.y : color.y;
         color.z = is_hit ? lit.z : color.z;
     }
-#endif
-#if RT_NEXT
-    /* Not what hangs over the tile's edge or fills up a block. */
-    if (w->hits.rays[RT_RAY_TMIN * step + i] < w->hits.rays[RT_RAY_TMAX * step + i])
-        add_to_path(w, i, color);
-#else
-#if RT_FOG
+    if (RT_NEXT) {
+        /* Not what hangs over the tile's edge or fills up a block. */
+        if (w->hits.rays[RT_RAY_TMIN * step + i] < w->hits.rays[RT_RAY_TMAX * step + i])
+            add_to_path(w, i, color);
+        return;
+    }
     number clear;
-    veil(&w->fog, w->hits.hit_array[RT_HIT_T * step + i], &color, &clear);
-#endif
-#if RT_SUM
-    const vec3 sum = LOAD3(w->colors, step, i);
-    color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
-#endif
+    if (ON(FOG))
+        veil(&w->fog, w->hits.hit_array[RT_HIT_T * step + i], &color, &clear);
+    if (RT_SUM) {
+        const vec3 sum = LOAD3(w->colors, step, i);
+        color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
+    }
     STORE3(color, w->colors, step, i);
-#endif
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
          __global const rt_light *lights, const int light_count, const rt_surround surround,
-         __global float *colors
-#if RT_GRADIENT
-         ,
-         const rt_gradient gradient
-#endif
-#if RT_FOG
-         ,
-         const rt_fog fog
-#endif
-#if RT_TEXTURE
-         ,
+         __global float *colors, const rt_gradient gradient, const rt_fog fog,
          __global const int *uvs_of, __global const float *uvs, __global const rt_texture *textures,
-         __global const uint *texels
-#endif
-#if RT_PROBES
-         ,
-         __global const int *open
-#endif
-#if RT_AMBIENT_OCCLUSION
-         ,
-         const rt_crevice crevice
-#endif
-#if RT_NEXT
-         ,
-         __global const int *home, __global number *paths, __global const int *marks
-#endif
-#if RT_SWITCHED
-         ,
-         const int flags
-#endif
-)
+         __global const uint *texels, __global const int *open, const rt_crevice crevice,
+         __global const int *home, __global number *paths, __global const int *marks,
+         const int flags)
 {
     const shading w = {
         .hits = TRACED,
@@ -334,29 +264,15 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
         .light_count = light_count,
         .surround = surround,
         .colors = colors,
-#if RT_GRADIENT
         .gradient = gradient,
-#endif
-#if RT_FOG
         .fog = fog,
-#endif
-#if RT_TEXTURE
         .pictures = {uvs_of, uvs, textures, texels},
-#endif
-#if RT_PROBES
         .open = open,
-#endif
-#if RT_AMBIENT_OCCLUSION
         .crevice = crevice,
-#endif
-#if RT_NEXT
         .home = home,
         .paths = paths,
         .marks = marks,
-#endif
-#if RT_SWITCHED
         .flags = flags,
-#endif
     };
     const size_t first = get_global_id(0) * RT_ITEM_RAYS;
     if (any_hit(hit_index, first)) {
