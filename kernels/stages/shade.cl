@@ -31,14 +31,10 @@ INLINE number power_whole(number x, int exponent)
 INLINE number highlight(number cosine, int exponent, number shininess)
 {
     const number whole = power_whole(cosine, exponent);
-#if RT_SHININESS_FRACTION
     /* 3 ulp each for log2 and exp2: at most 1e-5 of the result wherever it is above 1e-6. Not by
      * way of an infinite logarithm, of which relaxed math takes for granted that there is none. */
     const number power = cosine > (number)0.0f ? exp2(shininess * log2(cosine)) : (number)0.0f;
-    return exponent >= 0 ? whole : power;
-#else
-    return whole;
-#endif
+    return !RT_SHININESS_FRACTION || exponent >= 0 ? whole : power;
 }
 
 /* What shading works on, and where it writes to. */

@@ -2,24 +2,55 @@
 
 #include <string.h>
 
+#include "opencl/kernel_text.h"
+
 #define NAME_SIZE 64
 
-/* The names of a kernel and of the parameter that is looked at. */
-typedef struct names {
-    char kernel[NAME_SIZE], parameter[NAME_SIZE];
-} names;
+/* A kernel and what it is told by. */
+typedef struct signature {
+    cl_kernel kernel;
+    char name[NAME_SIZE];
+    cl_uint count;
+} signature;
 
-static cl_uint count_of(cl_kernel kernel)
+static bool read_signature(signature *s, cl_kernel kernel, rt_status *status)
 {
-    cl_uint count = 0;
-    return clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof count, &count, NULL) == CL_SUCCESS
-               ? count
-               : 0;
+    s->kernel = kernel;
+    return RT_CL(clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, NAME_SIZE, s->name, NULL),
+                 status) &&
+           RT_CL(clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof s->count, &s->count, NULL),
+                 status);
 }
 
-static bool name_of(cl_kernel kernel, cl_uint i, char *name)
+/* Copies word i of a text; false where there is none. */
+static bool word(const char *text, cl_uint i, char *out)
 {
-    return clGetKernelArgInfo(kernel, i, CL_KERNEL_ARG_NAME, NAME_SIZE, name, NULL) == CL_SUCCESS;
+    for (; i > 0 && text; --i)
+        text = (text = strchr(text, ' ')) ? text + 1 : NULL;
+    const size_t length = text ? strcspn(text, " ") : 0;
+    if (length == 0 || length >= NAME_SIZE)
+        return false;
+    memcpy(out, text, length);
+    out[length] = '\0';
+    return true;
+}
+
+/* Parameter i by the list from build time; false where that is of another kernel. */
+static bool listed_name(const signature *s, cl_uint i, char *name)
+{
+    char first[NAME_SIZE];
+    for (const char *const *line = rt_kernel_parameters; *line; ++line)
+        if (word(*line, 0, first) && strcmp(first, s->name) == 0)
+            return !word(*line, s->count + 1, name) && word(*line, s->count, name) &&
+                   word(*line, i + 1, name);
+    return false;
+}
+
+static bool name_of(const signature *s, cl_uint i, char *name)
+{
+    return clGetKernelArgInfo(s->kernel, i, CL_KERNEL_ARG_NAME, NAME_SIZE, name, NULL) ==
+               CL_SUCCESS ||
+           listed_name(s, i, name);
 }
 
 static const rt_argument *find(const rt_argument *known, size_t count, const char *name)
@@ -32,35 +63,39 @@ static const rt_argument *find(const rt_argument *known, size_t count, const cha
 
 bool rt_arguments_set(cl_kernel kernel, const rt_argument *known, size_t count, rt_status *status)
 {
-    names n = {"", ""};
-    const cl_uint parameters = count_of(kernel);
-    if (!RT_CL(clGetKernelInfo(kernel, CL_KERNEL_FUNCTION_NAME, NAME_SIZE, n.kernel, NULL), status))
+    signature s;
+    char name[NAME_SIZE];
+    if (!read_signature(&s, kernel, status))
         return false;
-    for (cl_uint i = 0; i < parameters; ++i) {
-        if (!name_of(kernel, i, n.parameter))
+    for (cl_uint i = 0; i < s.count; ++i) {
+        if (!name_of(&s, i, name))
             return rt_status_fail(status, RT_ERROR_DEVICE,
-                                  "rt: kernel %s: the device does not tell the parameters' names",
-                                  n.kernel);
-        const rt_argument *a = find(known, count, n.parameter);
+                                  "rt: kernel %s: the name of parameter %u is not to be had",
+                                  s.name, (unsigned)i);
+        const rt_argument *a = find(known, count, name);
         if (!a)
             return rt_status_fail(status, RT_ERROR_DEVICE,
-                                  "rt: kernel %s: nothing is known as parameter '%s'", n.kernel,
-                                  n.parameter);
+                                  "rt: kernel %s: nothing is known as parameter '%s'", s.name,
+                                  name);
         const cl_int error = clSetKernelArg(kernel, i, a->size, a->value);
         if (error != CL_SUCCESS)
             return rt_status_fail(status, RT_ERROR_DEVICE,
-                                  "rt: kernel %s: parameter '%s' of %zu bytes: %s (%d)", n.kernel,
-                                  n.parameter, a->size, rt_cl_error_name(error), (int)error);
+                                  "rt: kernel %s: parameter '%s' of %zu bytes: %s (%d)", s.name,
+                                  name, a->size, rt_cl_error_name(error), (int)error);
     }
     return true;
 }
 
 int rt_arguments_place(cl_kernel kernel, const char *name)
 {
-    const cl_uint parameters = count_of(kernel);
+    signature s;
     char parameter[NAME_SIZE];
-    for (cl_uint i = 0; i < parameters; ++i)
-        if (name_of(kernel, i, parameter) && strcmp(parameter, name) == 0)
-            return (int)i;
-    return -1;
+    rt_status ignored = RT_STATUS_INIT;
+    int place = -1;
+    if (read_signature(&s, kernel, &ignored))
+        for (cl_uint i = 0; i < s.count && place < 0; ++i)
+            if (name_of(&s, i, parameter) && strcmp(parameter, name) == 0)
+                place = (int)i;
+    rt_status_clear(&ignored);
+    return place;
 }

@@ -18,7 +18,10 @@ typedef struct rt_argument {
 
 /* Gives each parameter of a kernel its argument, one of the `count` that are known. A parameter
  * that is not known or of another size is an error, with code RT_ERROR_DEVICE and a message that
- * names both. Programs must be built with RT_ARGUMENTS_OPTION. */
+ * names both.
+ *
+ * The names are the driver's where it knows them: of programs built with RT_ARGUMENTS_OPTION, but
+ * not everywhere of binaries. Else they are those of rt_kernel_parameters. */
 bool rt_arguments_set(cl_kernel kernel, const rt_argument *known, size_t count, rt_status *status);
 
 /* The place of the parameter of that name, for clSetKernelArg; -1 where the kernel has none. */

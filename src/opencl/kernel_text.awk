@@ -20,8 +20,44 @@ FNR == 1 {
     emit("#line 1 \"kernels/" name "\"")
 }
 { emit($0) }
+# Parameters that several kernels have are macros: #define ..._PARAMETERS, continued or not.
+/^#define [A-Z_]*_PARAMETERS/ {
+    macro = $2
+    sub(/^#define [A-Z_]*/, "")
+    macros[macro] = ""
+}
+macro {
+    macros[macro] = macros[macro] $0
+    if (!sub(/\\$/, "", macros[macro]))
+        macro = ""
+}
+# A kernel's name and parameters stand between __kernel, alone with its attributes, and its body.
+signature && /^\{/ {
+    parameters[++kernels] = names_of(signature)
+    signature = ""
+}
+signature { signature = signature $0 }
+/^__kernel / { signature = " " }
+# "rt_shade(const int stride, __global float *colors)" to "rt_shade stride colors".
+function names_of(text,    name, list, n, i) {
+    for (name in macros)
+        gsub(name, macros[name], text)
+    n = split(text, part, /[(,)]/)
+    sub(/^.*[ *]/, "", part[1])
+    list = part[1]
+    for (i = 2; i < n; ++i) {
+        sub(/ *$/, "", part[i])
+        sub(/^.*[ *]/, "", part[i])
+        list = list " " part[i]
+    }
+    return list
+}
 END {
     print "0};"
     print "const size_t rt_kernel_text_length = " total ";"
     print "const char *const rt_kernel_names[] = {" names "NULL};"
+    print "const char *const rt_kernel_parameters[] = {"
+    for (i = 1; i <= kernels; ++i)
+        print "\"" parameters[i] "\","
+    print "NULL};"
 }

@@ -10,4 +10,8 @@ extern const char *const rt_kernel_names[];
 extern const char rt_kernel_text[];
 extern const size_t rt_kernel_text_length; /* bytes, the terminator not counted */
 
+/* Each kernel's name and those of its parameters in order, a space between any two; ended by NULL.
+ */
+extern const char *const rt_kernel_parameters[];
+
 #endif
