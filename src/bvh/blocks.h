@@ -1,4 +1,4 @@
-/* Primitives in the blocks of kernels/types.h, as they go to a device. */
+/* Primitives in the blocks of kernels/layout.h, as they go to a device. */
 #ifndef RT_BVH_BLOCKS_H
 #define RT_BVH_BLOCKS_H
 
@@ -9,7 +9,7 @@
 #include "common/status.h"
 #include "scene/scene.h"
 
-/* Each array has at its end what kernels/types.h asks for beyond the counts given here. */
+/* Each array has at its end what kernels/layout.h asks for beyond the counts given here. */
 typedef struct rt_blocks {
     rt_sphere_block *spheres;     /* owned */
     rt_triangle_block *triangles; /* owned */

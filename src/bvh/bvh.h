@@ -26,8 +26,9 @@ typedef struct rt_bvh {
 bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *status);
 void rt_bvh_clear(rt_bvh *bvh);
 
-/* The box that holds a primitive's hits at every level: lo and hi of x, y, z, with RT_BOX_MARGIN.
- * At robust and double the kernels compute the same, at standard a narrower one. */
+/* The box that holds a primitive's hits at every level: lo and hi of x, y, z, with RT_BOX_MARGIN of
+ * kernels/margins.h. At robust and double the kernels compute the same, at standard a narrower one.
+ */
 void rt_sphere_box(const rt_sphere *sphere, float lo[3], float hi[3]);
 void rt_triangle_box(const rt_triangle *triangle, float lo[3], float hi[3]);
 

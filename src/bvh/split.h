@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kernels/types.h"
+#include "kernels/layout.h"
 
 /* Primitives at which a range is split no further: what a leaf's block holds. */
 #define RT_LEAF_TARGET RT_BLOCK_PRIMITIVES

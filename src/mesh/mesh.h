@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #include "common/status.h"
-#include "kernels/types.h"
+#include "kernels/layout.h"
 
 typedef struct rt_mesh_material {
     char *name; /* owned */

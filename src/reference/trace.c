@@ -1,4 +1,5 @@
 /* The geometry of the scalar reference: rays against primitives. */
+#include "reference/margins.h"
 #include "reference/real.h"
 
 /* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
@@ -50,7 +51,7 @@ void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real
     slab(r->origin.x, r->direction.x, lo.x, hi.x, enter, leave);
     slab(r->origin.y, r->direction.y, lo.y, hi.y, enter, leave);
     slab(r->origin.z, r->direction.z, lo.z, hi.z, enter, leave);
-    *leave = *leave * (real)(is_robust(scene) ? RT_SLAB_MARGIN_ROBUST : RT_SLAB_MARGIN);
+    *leave = *leave * (real)(is_robust(scene) ? SLAB_MARGIN_ROBUST : SLAB_MARGIN);
 }
 
 /* One axis of a primitive's box, its margin still to come. */
@@ -70,7 +71,7 @@ static extent over(float a, float b, float c)
 
 static float margin_of(extent e)
 {
-    return (fabsf(e.lo) + fabsf(e.hi)) * RT_BOX_MARGIN;
+    return (fabsf(e.lo) + fabsf(e.hi)) * BOX_MARGIN;
 }
 
 /* In float also where the rest is in double: that is what primitives are made of. */

@@ -12,7 +12,7 @@
 #include "scene/scene.h"
 
 typedef struct rt_device_scene {
-    cl_mem nodes, order, spheres, triangles; /* the tree and its blocks; kernels/types.h */
+    cl_mem nodes, order, spheres, triangles; /* the tree and its blocks; kernels/layout.h */
     cl_mem materials_of, materials, lights;  /* the first by primitive */
     cl_mem normals_of, normals;              /* where normals are smooth; by triangle */
     cl_mem uvs_of, uvs, textures, texels;    /* where there are textures; the first by triangle */

@@ -6,7 +6,7 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
-#include "kernels/types.h"
+#include "kernels/layout.h"
 
 typedef struct rt_tiles {
     int width, height, side; /* of the picture and of a tile, in pixels */

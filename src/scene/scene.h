@@ -1,5 +1,5 @@
 /* The scene: what is seen, from where, in which light. Plain arrays that a device can take as they
- * are (kernels/types.h); all numbers are fp32 and count as exact. */
+ * are (kernels/layout.h); all numbers are fp32 and count as exact. */
 #ifndef RT_SCENE_SCENE_H
 #define RT_SCENE_SCENE_H
 
@@ -9,7 +9,7 @@
 
 #include "common/accuracy.h"
 #include "common/status.h"
-#include "kernels/types.h"
+#include "kernels/layout.h"
 #include "scene/triangle.h"
 
 #define RT_IMAGE_SIDE_MAX 65535

@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "common/vec3.h"
-#include "kernels/types.h"
+#include "kernels/layout.h"
 
 bool rt_triangle_is_degenerate(const rt_triangle *t)
 {

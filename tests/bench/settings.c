@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "common/number.h"
-#include "kernels/types.h"
+#include "kernels/layout.h"
 
 enum {
     OPTION_DEVICE = 'd',

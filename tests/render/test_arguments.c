@@ -1,6 +1,7 @@
 /* Kernels' arguments by the names of their parameters: a kernel that asks for something else is
  * refused, and the names are the same where the driver does not tell them. */
 #define _GNU_SOURCE
+#include "support/mutants.h"
 #include "support/support.h"
 
 #include <dlfcn.h>
@@ -131,11 +132,11 @@ static void the_list_is_the_drivers(void **state)
 }
 
 /* The renderer's making fails over a kernel that is changed so, with this message. */
-static void assert_refused(const char *file, const char *from, const char *to, const char *message)
+static void assert_refused(test_mutant mutant, const char *message)
 {
     rt_scene scene;
     rt_status status = RT_STATUS_INIT;
-    test_mutate_kernels(file, from, to);
+    test_mutate_kernels(mutant);
     assert_null(renderer_of(&scene, &status));
     test_restore_kernels();
     assert_int_equal(status.code, RT_ERROR_DEVICE);
@@ -148,12 +149,10 @@ static void assert_refused(const char *file, const char *from, const char *to, c
 static void a_parameter_that_is_not_known(void **state)
 {
     (void)state;
-    static const char last[] = "const int unit_exponent)",
-                      more[] = "const int unit_exponent, const int more)";
-    assert_refused("resolve.cl", last, more,
+    assert_refused(MUTANT_PARAMETER_MORE,
                    "rt: kernel rt_resolve_hits: nothing is known as parameter 'more'");
     is_silent = true;
-    assert_refused("resolve.cl", last, more,
+    assert_refused(MUTANT_PARAMETER_MORE,
                    "rt: kernel rt_resolve_hits: the name of parameter 0 is not to be had");
     is_silent = false;
 }
@@ -161,7 +160,7 @@ static void a_parameter_that_is_not_known(void **state)
 static void a_parameter_of_another_size(void **state)
 {
     (void)state;
-    assert_refused("queue.cl", "const int total,", "const long total,",
+    assert_refused(MUTANT_PARAMETER_LARGE,
                    "rt: kernel rt_pack: parameter 'total' of 4 bytes: CL_INVALID_ARG_SIZE");
 }
 
@@ -171,8 +170,7 @@ static void parameters_may_be_swapped(void **state)
     (void)state;
     rt_image straight, swapped;
     draw(&straight);
-    test_mutate_kernels("camera.cl", "const int samples, const int flags,",
-                        "const int flags, const int samples,");
+    test_mutate_kernels(MUTANT_PARAMETERS_SWAPPED);
     draw(&swapped);
     test_restore_kernels();
     assert_memory_equal(straight.rgb, swapped.rgb,

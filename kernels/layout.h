@@ -1,7 +1,7 @@
 /* What the host and the kernels share: the layout of every array that goes to a device. Scalar
  * fields only and padding spelled out, so that each compiler lays them out alike. */
-#ifndef RT_TYPES_H
-#define RT_TYPES_H
+#ifndef RT_LAYOUT_H
+#define RT_LAYOUT_H
 
 /* Rays of a tile lie in blocks of 8x8 pixels, so that neighbours in the array are neighbours in
  * the picture. One block is one work-group at every lane width. */
@@ -68,19 +68,6 @@ typedef struct rt_node {
     float lo_z[RT_WIDTH], hi_z[RT_WIDTH];
     int child[RT_WIDTH];
 } rt_node;
-
-/* A primitive's box is widened by this part of |lo| + |hi|: so the rounding of a sphere's corners
- * cannot cut it, and a ray that runs along a face of the exact box is inside. At robust and double,
- * and in the tree, which serves all levels, it is widened on every side by what that is on the axis
- * where it is the most: the watertight test moves a hit across the ray by up to two half ulps of
- * the triangle's size, also along axes where the triangle is thin. */
-#define RT_BOX_MARGIN 0x1p-22f
-/* The far end of a slab interval grows by a few ulp, so that rounding cannot empty the interval of
- * a box that is met at a corner (Ize 2013). At robust and double it must not be emptied where the
- * watertight test says hit, whose shear adds two half ulps of its own on either side: 16 half ulps.
- */
-#define RT_SLAB_MARGIN 1.0000005f
-#define RT_SLAB_MARGIN_ROBUST 0x1.00001p0f
 
 /* Phong's coefficients, and what a surface does beside them.
  *
@@ -219,9 +206,8 @@ typedef struct rt_turn {
 #define RT_WAITING_MEDIUM 1
 #define RT_WAITING_MARKS 2
 
-/* Rays that would bring less than this part are not followed: less than half of an 8-bit step of
- * white. Both rays of a hit can be worth it at 511 hits of a path at most. */
-#define RT_WEIGHT_LEAST (1.0f / 512.0f)
+/* Mirror rays that a path has waiting at most: at RT_WEIGHT_LEAST of margins.h both rays of a hit
+ * can be worth following at so many of its hits. */
 #define RT_WAITING_MOST 511
 
 /* What rt_count tells of each block of next rays. */

@@ -1,0 +1,24 @@
+/* How much room rounding is given, and what is too little to follow. The tree is made with the
+ * box's margin too; the reference has constants of its own (src/reference/margins.h), so that it
+ * notices where one of these is wrong. */
+#ifndef RT_MARGINS_H
+#define RT_MARGINS_H
+
+/* A primitive's box is widened by this part of |lo| + |hi|: so the rounding of a sphere's corners
+ * cannot cut it, and a ray that runs along a face of the exact box is inside. At robust and double,
+ * and in the tree, which serves all levels, it is widened on every side by what that is on the axis
+ * where it is the most: the watertight test moves a hit across the ray by up to two half ulps of
+ * the triangle's size, also along axes where the triangle is thin. */
+#define RT_BOX_MARGIN 0x1p-22f
+/* The far end of a slab interval grows by a few ulp, so that rounding cannot empty the interval of
+ * a box that is met at a corner (Ize 2013). At robust and double it must not be emptied where the
+ * watertight test says hit, whose shear adds two half ulps of its own on either side: 16 half ulps.
+ */
+#define RT_SLAB_MARGIN 1.0000005f
+#define RT_SLAB_MARGIN_ROBUST 0x1.00001p0f
+
+/* Rays that would bring less than this part are not followed: less than half of an 8-bit step of
+ * white. */
+#define RT_WEIGHT_LEAST (1.0f / 512.0f)
+
+#endif
