@@ -46,14 +46,18 @@ typedef struct rt_statement {
     const char *variant; /* the word that must follow the keyword, or NULL */
     int once;            /* at most one a scene */
     const char *meaning;
-    rt_statement_apply *apply;      /* NULL: nothing beyond that it is there */
+    rt_statement_apply *apply;
     rt_field fields[RT_FIELDS_MAX]; /* ended by meaning == NULL */
 } rt_statement;
 
-/* Most statements that there are. */
-#define RT_STATEMENTS_MAX 24
+#define STATEMENT(name, ...) +1
+enum {
+    RT_STATEMENT_COUNT =
+#include "scene_text/statements.def"
+};
+#undef STATEMENT
 
-/* Ended by keyword == NULL. */
+/* RT_STATEMENT_COUNT rows, ended by keyword == NULL. */
 extern const rt_statement rt_statements[];
 
 /* Number of fields of a statement. */

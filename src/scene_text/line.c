@@ -224,7 +224,7 @@ bool rt_line_read(rt_source *source, rt_line *l)
 
 static bool fail_unknown_statement(rt_source *source, const rt_word *word)
 {
-    const char *names[RT_STATEMENTS_MAX] = {NULL};
+    const char *names[RT_STATEMENT_COUNT] = {NULL};
     size_t count = 0;
     for (const rt_statement *s = rt_statements; s->keyword; ++s)
         if (count == 0 || strcmp(names[count - 1], s->keyword) != 0)
@@ -245,7 +245,7 @@ bool rt_line_is_keyword(const rt_word *word)
 
 static bool fail_unknown_variant(rt_source *source, const rt_word *keyword, const rt_word *found)
 {
-    const char *names[RT_STATEMENTS_MAX], *first = NULL;
+    const char *names[RT_STATEMENT_COUNT], *first = NULL;
     size_t count = 0;
     for (const rt_statement *s = rt_statements; s->keyword; ++s)
         if (s->variant && rt_word_equals(keyword, s->keyword)) {

@@ -19,10 +19,10 @@ typedef struct rt_parser {
     rt_status *status;
     void *names; /* tsearch tree of rt_material_name */
     const rt_material_name *last_name;
-    bool has_version;                 /* or its lack was told of */
-    rt_place seen[RT_STATEMENTS_MAX]; /* where a statement first came, by its row */
-    bool has_shadows;                 /* what `shadows` says */
-    rt_place shadows_place;           /* and where */
+    bool has_version;                  /* or its lack was told of */
+    rt_place seen[RT_STATEMENT_COUNT]; /* where a statement first came, by its row */
+    bool has_shadows;                  /* what `shadows` says */
+    rt_place shadows_place;            /* and where */
     size_t degenerate_count;
     rt_place degenerate_place;
 } rt_parser;
@@ -49,23 +49,9 @@ static inline int rt_value_count(const rt_value *v, int fallback)
 }
 
 /* What the statements do, each by its row of rt_statements. */
-rt_statement_apply rt_scene_apply_include;
-rt_statement_apply rt_scene_apply_image;
-rt_statement_apply rt_scene_apply_camera;
-rt_statement_apply rt_scene_apply_background;
-rt_statement_apply rt_scene_apply_ambient;
-rt_statement_apply rt_scene_apply_fog;
-rt_statement_apply rt_scene_apply_occlusion;
-rt_statement_apply rt_scene_apply_shadows;
-rt_statement_apply rt_scene_apply_depth;
-rt_statement_apply rt_scene_apply_light_point;
-rt_statement_apply rt_scene_apply_light_directional;
-rt_statement_apply rt_scene_apply_material;
-rt_statement_apply rt_scene_apply_sphere;
-rt_statement_apply rt_scene_apply_triangle;
-rt_statement_apply rt_scene_apply_mesh;
-rt_statement_apply rt_scene_apply_cull;
-rt_statement_apply rt_scene_apply_accuracy;
+#define STATEMENT(name, ...) rt_statement_apply rt_scene_apply_##name;
+#include "scene_text/statements.def"
+#undef STATEMENT
 
 /* Lets `shadows` decide for the lights that do not say themselves, once all statements are read. */
 void rt_scene_settle_shadows(rt_parser *p);

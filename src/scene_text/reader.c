@@ -16,6 +16,15 @@
 static bool read_file(rt_parser *p, const char *name, const rt_file_text *text,
                       rt_source *includer);
 
+/* That it is there is known by its keyword, and the one version there is by its row. */
+bool rt_scene_apply_version(rt_parser *p, rt_source *src, const rt_line *l)
+{
+    (void)p;
+    (void)src;
+    (void)l;
+    return true;
+}
+
 /* Opens `word` relative to the file that names it. */
 bool rt_scene_apply_include(rt_parser *p, rt_source *src, const rt_line *l)
 {
@@ -76,7 +85,7 @@ static bool read_line(rt_parser *p, rt_source *src, const rt_word *keyword)
             rt_scene_define_broken(p, src, &name->word);
         return false;
     }
-    return (!l.statement->apply || l.statement->apply(p, src, &l)) && in_order;
+    return l.statement->apply(p, src, &l) && in_order;
 }
 
 static bool read_lines(rt_parser *p, rt_source *src)
