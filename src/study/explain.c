@@ -218,7 +218,7 @@ bool rt_explain_measure(rt_explanation *e, const rt_scene *scene, const rt_bvh *
                 rt_image_init(&image, small.width, small.height, false, status) &&
                 (with = make_renderer(&b, &small, b.effects)) != NULL;
     for (int i = 0; good && i < RT_EFFECT_COUNT; ++i) {
-        b.done = (double)i / RT_EFFECT_COUNT;
+        b.done = (double)i / (int)RT_EFFECT_COUNT;
         if (e->effects.on[i])
             good = measure_effect(&b, &small, with, &image, (enum rt_effect)i, &e->costs[i]);
     }

@@ -224,7 +224,7 @@ bool rt_study_trace_rays(study_state *s, rt_renderer *const *renderers)
             compare_hits(&r, level);
             good = trace_next(s, &r, renderers[i], level);
         }
-        good = good && rt_study_tick(s, 0.5 + 0.5 * (double)(i + 1) / RT_ACCURACY_COUNT);
+        good = good && rt_study_tick(s, 0.5 + 0.5 * (double)(i + 1) / (int)RT_ACCURACY_COUNT);
     }
     free_set(&r);
     return good;
