@@ -39,10 +39,10 @@ static void every_cell_holds_one_sample(void **state)
 static void sets_are_independent(void **state)
 {
     (void)state;
-    enum { COUNT = 10000 };
+    const uint32_t count = 10000;
     for (int kind = 0; kind < 5; ++kind) {
         double sum = 0, squares = 0;
-        for (uint32_t i = 0; i < COUNT; ++i) {
+        for (uint32_t i = 0; i < count; ++i) {
             stream a = {i % 100, i / 100, 0, 0}, b = a;
             uint32_t dimension = DIMENSION_LIGHT;
             b.x += kind == 0;
@@ -56,7 +56,7 @@ static void sets_are_independent(void **state)
             sum += x * y;
             squares += x * x;
         }
-        assert_near(squares / COUNT, 1.0 / 12.0, 0.003);
+        assert_near(squares / count, 1.0 / 12.0, 0.003);
         assert_near(sum / squares, 0.0, 0.05);
     }
 }
@@ -65,32 +65,32 @@ static void sets_are_independent(void **state)
 static void mixing_spreads_every_bit(void **state)
 {
     (void)state;
-    enum { COUNT = 4096 };
+    const uint32_t count = 4096;
     for (int bit = 0; bit < 32; ++bit) {
         int changed = 0;
-        for (uint32_t i = 0; i < COUNT; ++i) {
+        for (uint32_t i = 0; i < count; ++i) {
             const uint32_t x = i * UINT32_C(0x9e3779b9);
             changed += __builtin_popcount(rt_scalar_double_mix(x) ^
                                           rt_scalar_double_mix(x ^ UINT32_C(1) << bit));
         }
-        assert_near((double)changed / COUNT, 16.0, 0.5);
+        assert_near((double)changed / count, 16.0, 0.5);
     }
 }
 
 static void filters_have_their_mean_and_variance(void **state)
 {
     (void)state;
-    enum { COUNT = 100000 };
+    const int count = 100000;
     const struct {
         enum rt_filter filter;
         double reach, variance;
     } filters[] = {{RT_FILTER_BOX, 0.5, 1.0 / 12.0}, {RT_FILTER_TENT, 1.0, 1.0 / 6.0}};
     for (size_t i = 0; i < 2; ++i) {
         double mean = 0, square = 0;
-        for (int k = 0; k < COUNT; ++k) {
-            const double x = rt_scalar_double_filtered(filters[i].filter, (k + 0.5) / COUNT);
-            mean += x / COUNT;
-            square += x * x / COUNT;
+        for (int k = 0; k < count; ++k) {
+            const double x = rt_scalar_double_filtered(filters[i].filter, (k + 0.5) / count);
+            mean += x / count;
+            square += x * x / count;
         }
         assert_near(mean, 0.0, 1e-9);
         assert_near(square, filters[i].variance, 1e-6);
@@ -179,25 +179,25 @@ static void axes_are_at_right_angles(void **state)
 static void the_hemisphere_is_cosine_weighted(void **state)
 {
     (void)state;
-    enum { COUNT = 4096 };
+    const uint32_t count = 4096;
     const vec normals[] = {{0, 0, 1}, {0, 0, -1}, {0.6, 0, -0.8}, {0.48, -0.6, 0.64}};
     for (size_t i = 0; i < sizeof normals / sizeof *normals; ++i) {
         const stream s = {(uint32_t)i, 5, 0, 0};
         double mean = 0, square = 0;
         vec sum = {0, 0, 0};
-        for (uint32_t k = 0; k < COUNT; ++k) {
-            const pair p = rt_scalar_double_stratified(&s, DIMENSION_OCCLUSION, COUNT, k);
+        for (uint32_t k = 0; k < count; ++k) {
+            const pair p = rt_scalar_double_stratified(&s, DIMENSION_OCCLUSION, count, k);
             const vec d = rt_scalar_double_hemisphere(p, normals[i]);
             const double cosine = dot(d, normals[i]);
             assert_near(dot(d, d), 1.0, 1e-12);
             assert_true(cosine >= 0);
-            mean += cosine / COUNT;
-            square += cosine * cosine / COUNT;
+            mean += cosine / count;
+            square += cosine * cosine / count;
             sum = plus(sum, d);
         }
         assert_near(mean, 2.0 / 3.0, 1e-3);
         assert_near(square - mean * mean, 1.0 / 18.0, 1e-3);
-        assert_near(dot(sum, sum) / COUNT / COUNT, 4.0 / 9.0, 2e-3);
+        assert_near(dot(sum, sum) / count / count, 4.0 / 9.0, 2e-3);
     }
 }
 
