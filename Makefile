@@ -80,7 +80,7 @@ TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(wildcard $(SRC)tests/support
 all: rt ## builds ./rt
 
 rt: $(BUILD)/rt
-	@cp $< $@
+	@cp -f $< $@
 
 $(BUILD)/rt: $(OBJECTS) $(FLAGS)
 	$(call say,LINK)
