@@ -54,7 +54,7 @@ FLAGS := $(BUILD)/flags
 # ---- Files ----
 
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix $(SRC)kernels/,effects.def options.h layout.h margins.h \
+KERNELS := $(addprefix $(SRC)kernels/,effects.def primitives/kinds.h options.h layout.h margins.h \
            $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
            $(addprefix primitives/,intersect.cl sphere.cl watertight.cl) \
            $(addprefix traversal/,packet.cl traverse.cl) \

@@ -39,28 +39,9 @@
 /* A record of texture coordinates: u, v at a, b, c; (0, 0) is the lower left of a picture. */
 #define RT_UV_COMPONENTS 6
 
-/* Primitives go to the device in blocks of four, component by component, so that one ray can be
- * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is
- * place k of block i. A place that is not filled has zeros, which nothing hits. */
-#define RT_BLOCK_PRIMITIVES 4
-#define RT_ORDER_PADDING 16
-
-typedef struct rt_sphere_block {
-    float cx[RT_BLOCK_PRIMITIVES], cy[RT_BLOCK_PRIMITIVES], cz[RT_BLOCK_PRIMITIVES];
-    float radius[RT_BLOCK_PRIMITIVES];
-} rt_sphere_block;
-
-typedef struct rt_triangle_block {
-    float ax[RT_BLOCK_PRIMITIVES], ay[RT_BLOCK_PRIMITIVES], az[RT_BLOCK_PRIMITIVES];
-    float bx[RT_BLOCK_PRIMITIVES], by[RT_BLOCK_PRIMITIVES], bz[RT_BLOCK_PRIMITIVES];
-    float cx[RT_BLOCK_PRIMITIVES], cy[RT_BLOCK_PRIMITIVES], cz[RT_BLOCK_PRIMITIVES];
-} rt_triangle_block;
-
 /* A node of the tree: the boxes of up to 16 children side by side, empty ones with lo > hi. A child
- * is the index of a node, or a leaf: RT_LEAF, RT_LEAF_SPHERES for spheres, and the block. */
+ * is the index of a node, or a leaf (kernels/primitives/kinds.h). */
 #define RT_WIDTH 16
-#define RT_LEAF ((int)0x80000000)
-#define RT_LEAF_SPHERES 0x40000000
 
 typedef struct rt_node {
     float lo_x[RT_WIDTH], hi_x[RT_WIDTH];

@@ -101,17 +101,6 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #error "RT_LIGHTS must be from -1 to 4"
 #endif
 
-/* Whether the scene has spheres, and whether it has triangles. */
-#ifndef RT_SPHERES
-#define RT_SPHERES 1
-#endif
-#ifndef RT_TRIANGLES
-#define RT_TRIANGLES 1
-#endif
-#if (RT_SPHERES != 0 && RT_SPHERES != 1) || (RT_TRIANGLES != 0 && RT_TRIANGLES != 1)
-#error "RT_SPHERES and RT_TRIANGLES must be 0 or 1"
-#endif
-
 #if RT_SMOOTH && !RT_TRIANGLES
 #error "RT_SMOOTH needs RT_TRIANGLES"
 #endif

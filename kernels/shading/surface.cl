@@ -128,7 +128,8 @@ INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *nor
     const int stride, __global const number *rays, __global const int *hit_index,                  \
         __global const int *hit_slot, __global const number *hit_array,                            \
         __global const rt_sphere_block *spheres, const int sphere_count,                           \
-        __global const rt_triangle_block *triangles, __global const int *normals_of,               \
+        __global const rt_triangle_block *triangles, const int triangle_count,              \
+        __global const int *normals_of,                                                            \
         __global const float *normals
 #define TRACED                                                                                     \
     {                                                                                              \

@@ -138,11 +138,11 @@ INLINE int offer_triangles(packet *p, int groups, const world *w, int block, con
 }
 #endif
 
-INLINE int offer_block(packet *p, int groups, const world *w, int is_sphere, int block,
+INLINE int offer_block(packet *p, int groups, const world *w, int kind, int block,
                        const int any)
 {
 #if RT_SPHERES && RT_TRIANGLES
-    return is_sphere ? offer_spheres(p, groups, w, block, any)
+    return kind == RT_KIND_SPHERES ? offer_spheres(p, groups, w, block, any)
                      : offer_triangles(p, groups, w, block, any);
 #elif RT_SPHERES
     return offer_spheres(p, groups, w, block, any);

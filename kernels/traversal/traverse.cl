@@ -193,8 +193,7 @@ INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
                 continue;
             if (child >= 0)
                 node = child;
-            else if (offer_block(p, groups, w, child & RT_LEAF_SPHERES,
-                                 child & (RT_LEAF_SPHERES - 1), any))
+            else if (offer_block(p, groups, w, RT_LEAF_KIND(child), RT_LEAF_BLOCK(child), any))
                 b->tmax = farthest(p);
         }
     }
@@ -250,13 +249,13 @@ INLINE void take_best(hit *h, meeting *m, mask index, int block, const int any)
 }
 
 /* Holds one ray, in all lanes of `r`, against a block. */
-INLINE void meet_block(const rays *r, hit *h, const world *w, int is_sphere, int block,
+INLINE void meet_block(const rays *r, hit *h, const world *w, int kind, int block,
                        const int any)
 {
     meeting m;
 #if RT_SPHERES
 #if RT_TRIANGLES
-    if (is_sphere)
+    if (kind == RT_KIND_SPHERES)
 #endif
     {
         __global const rt_sphere_block *s = w->spheres + block;
@@ -303,7 +302,7 @@ INLINE int follow(const rays *r, hit *h, const world *w, int child, const int an
 {
     if (child >= 0)
         return child;
-    meet_block(r, h, w, child & RT_LEAF_SPHERES, child & (RT_LEAF_SPHERES - 1), any);
+    meet_block(r, h, w, RT_LEAF_KIND(child), RT_LEAF_BLOCK(child), any);
     return -1;
 }
 

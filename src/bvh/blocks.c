@@ -8,18 +8,29 @@
 /* Slots that a thread copies at a time. */
 #define CHUNK ((size_t)16384)
 
+size_t rt_blocks_slots_before(const rt_blocks *blocks, enum rt_kind kind)
+{
+    size_t count = 0;
+    for (int k = 0; k < (int)kind; ++k)
+        count += blocks->counts[k];
+    return count * RT_BLOCK_PRIMITIVES;
+}
+
 size_t rt_blocks_slots(const rt_blocks *blocks)
 {
-    return (blocks->sphere_blocks + blocks->triangle_blocks) * RT_BLOCK_PRIMITIVES;
+    return rt_blocks_slots_before(blocks, RT_KIND_COUNT);
 }
 
 bool rt_blocks_make(rt_blocks *blocks)
 {
     const size_t slots = rt_blocks_slots(blocks);
-    blocks->spheres = calloc(blocks->sphere_blocks + 1, sizeof *blocks->spheres);
-    blocks->triangles = calloc(blocks->triangle_blocks + 1, sizeof *blocks->triangles);
+    bool good = true;
+    for (int k = 0; k < RT_KIND_COUNT; ++k) {
+        blocks->kinds[k] = calloc(blocks->counts[k] + 1, rt_kinds[k].block_size);
+        good = good && blocks->kinds[k];
+    }
     blocks->order = malloc((slots + RT_ORDER_PADDING) * sizeof *blocks->order);
-    if (!blocks->spheres || !blocks->triangles || !blocks->order)
+    if (!good || !blocks->order)
         return false;
     memset(blocks->order, 0xff, (slots + RT_ORDER_PADDING) * sizeof *blocks->order); /* -1 */
     return true;
@@ -30,45 +41,57 @@ typedef struct gathering {
     rt_blocks *blocks;
 } gathering;
 
-static void gather_sphere(rt_sphere_block *block, size_t place, const rt_sphere *sphere)
+/* From primitives of `fields` floats each to their places in blocks: slots from `begin` up to
+ * `end`, whose primitives `order` has by index, of which the first is `first`. */
+static inline void gather(float *blocks, const float *items, size_t fields, const int32_t *order,
+                          size_t begin, size_t end, size_t first)
 {
-    block->cx[place] = sphere->cx;
-    block->cy[place] = sphere->cy;
-    block->cz[place] = sphere->cz;
-    block->radius[place] = sphere->radius;
+    for (size_t slot = begin; slot < end; ++slot) {
+        if (order[slot] < 0)
+            continue;
+        const float *item = items + fields * ((size_t)order[slot] - first);
+        float *place = blocks + slot / RT_BLOCK_PRIMITIVES * fields * RT_BLOCK_PRIMITIVES +
+                       slot % RT_BLOCK_PRIMITIVES;
+        for (size_t field = 0; field < fields; ++field)
+            place[field * RT_BLOCK_PRIMITIVES] = item[field];
+    }
 }
 
-static void gather_triangle(rt_triangle_block *block, size_t place, const rt_triangle *triangle)
+/* A loop a kind, so that it knows the number of fields. */
+#define GATHER_KIND(name, names, NAMES)                                                            \
+    case RT_KIND_##NAMES:                                                                          \
+        gather(blocks->kinds[kind], scene->kinds[kind].items, sizeof(rt_##name) / sizeof(float),   \
+               order, begin, end, first);                                                          \
+        break;
+
+static void gather_kind(const rt_scene *scene, const rt_blocks *blocks, enum rt_kind kind,
+                        const int32_t *order, size_t begin, size_t end)
 {
-    block->ax[place] = triangle->ax;
-    block->ay[place] = triangle->ay;
-    block->az[place] = triangle->az;
-    block->bx[place] = triangle->bx;
-    block->by[place] = triangle->by;
-    block->bz[place] = triangle->bz;
-    block->cx[place] = triangle->cx;
-    block->cy[place] = triangle->cy;
-    block->cz[place] = triangle->cz;
+    const size_t first = rt_scene_primitives_before(scene, kind);
+    switch (kind) {
+        RT_KINDS(GATHER_KIND)
+    case RT_KIND_COUNT:
+        break;
+    }
+}
+
+static size_t lesser(size_t a, size_t b)
+{
+    return a < b ? a : b;
 }
 
 static void gather_chunk(void *context, size_t chunk)
 {
     const gathering *g = context;
-    rt_blocks *blocks = g->blocks;
-    const size_t sphere_slots = blocks->sphere_blocks * RT_BLOCK_PRIMITIVES;
-    const size_t slots = sphere_slots + blocks->triangle_blocks * RT_BLOCK_PRIMITIVES;
-    const size_t end = (chunk + 1) * CHUNK < slots ? (chunk + 1) * CHUNK : slots;
-    for (size_t i = chunk * CHUNK; i < end; ++i) {
-        const int32_t primitive = blocks->order[i];
-        const size_t slot = i < sphere_slots ? i : i - sphere_slots;
-        const size_t block = slot / RT_BLOCK_PRIMITIVES, place = slot % RT_BLOCK_PRIMITIVES;
-        if (primitive < 0)
-            continue;
-        if (i < sphere_slots)
-            gather_sphere(&blocks->spheres[block], place, &g->scene->spheres[primitive]);
-        else
-            gather_triangle(&blocks->triangles[block], place,
-                            &g->scene->triangles[(size_t)primitive - g->scene->sphere_count]);
+    size_t begin = chunk * CHUNK, end = begin + CHUNK; /* counted from the kind's first slot */
+    const int32_t *order = g->blocks->order;
+    for (int k = 0; k < RT_KIND_COUNT; ++k) {
+        const size_t slots = g->blocks->counts[k] * RT_BLOCK_PRIMITIVES;
+        gather_kind(g->scene, g->blocks, (enum rt_kind)k, order, lesser(begin, slots),
+                    lesser(end, slots));
+        order += slots;
+        begin -= lesser(begin, slots);
+        end -= lesser(end, slots);
     }
 }
 
@@ -86,25 +109,27 @@ static size_t blocks_for(size_t primitives)
 
 bool rt_blocks_in_order(rt_blocks *blocks, const rt_scene *scene, rt_status *status)
 {
-    *blocks = (rt_blocks){.sphere_blocks = blocks_for(scene->sphere_count),
-                          .triangle_blocks = blocks_for(scene->triangle_count)};
+    *blocks = (rt_blocks){0};
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        blocks->counts[k] = blocks_for(scene->kinds[k].count);
     if (!rt_blocks_make(blocks)) {
         rt_blocks_clear(blocks);
         return rt_status_no_memory(status, "the scene");
     }
-    for (size_t i = 0; i < scene->sphere_count; ++i)
-        blocks->order[i] = (int32_t)i;
-    for (size_t i = 0; i < scene->triangle_count; ++i)
-        blocks->order[blocks->sphere_blocks * RT_BLOCK_PRIMITIVES + i] =
-            (int32_t)(scene->sphere_count + i);
+    int32_t primitive = 0;
+    for (int k = 0; k < RT_KIND_COUNT; ++k) {
+        int32_t *order = blocks->order + rt_blocks_slots_before(blocks, (enum rt_kind)k);
+        for (size_t i = 0; i < scene->kinds[k].count; ++i)
+            order[i] = primitive++;
+    }
     rt_blocks_gather(blocks, scene, 1);
     return true;
 }
 
 void rt_blocks_clear(rt_blocks *blocks)
 {
-    free(blocks->spheres);
-    free(blocks->triangles);
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        free(blocks->kinds[k]);
     free(blocks->order);
     *blocks = (rt_blocks){0};
 }

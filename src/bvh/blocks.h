@@ -1,4 +1,4 @@
-/* Primitives in the blocks of kernels/layout.h, as they go to a device. */
+/* Primitives in the blocks of kernels/primitives/kinds.h, as they go to a device. */
 #ifndef RT_BVH_BLOCKS_H
 #define RT_BVH_BLOCKS_H
 
@@ -9,20 +9,21 @@
 #include "common/status.h"
 #include "scene/scene.h"
 
-/* Each array has at its end what kernels/layout.h asks for beyond the counts given here. */
+/* Each array has at its end what kinds.h asks for beyond the counts given here. */
 typedef struct rt_blocks {
-    rt_sphere_block *spheres;     /* owned */
-    rt_triangle_block *triangles; /* owned */
-    int32_t *order; /* owned: the primitive of each slot, spheres' slots and then triangles'; -1 for
-                       a place that is not filled */
-    size_t sphere_blocks, triangle_blocks;
+    void *kinds[RT_KIND_COUNT]; /* owned: rt_sphere_block, rt_triangle_block, ... */
+    size_t counts[RT_KIND_COUNT];
+    int32_t *order; /* owned: the primitive of each slot, kind after kind; -1 for a place that is
+                       not filled */
 } rt_blocks;
 
-/* Slots of both kinds, those that are not filled included. */
+/* Slots of all kinds before one, those that are not filled included. */
+size_t rt_blocks_slots_before(const rt_blocks *blocks, enum rt_kind kind);
+/* Slots of all kinds. */
 size_t rt_blocks_slots(const rt_blocks *blocks);
 
-/* Makes room for blocks->sphere_blocks and blocks->triangle_blocks, with every place unfilled.
- * False without memory; what there is then is the caller's to clear. */
+/* Makes room for blocks->counts, with every place unfilled. False without memory; what there is
+ * then is the caller's to clear. */
 bool rt_blocks_make(rt_blocks *blocks);
 
 /* Copies the scene's primitives to where the order has them. */

@@ -1,10 +1,10 @@
 #include "bvh/bvh.h"
 
 #include <float.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "bvh/box.h"
 #include "bvh/split.h"
 #include "common/array.h"
 #include "common/parallel.h"
@@ -32,66 +32,32 @@ typedef struct builder {
     subtree subtrees[RT_WIDTH];
 } builder;
 
-static inline void widen(float lo[3], float hi[3])
-{
-    const float x = fabsf(lo[0]) + fabsf(hi[0]), y = fabsf(lo[1]) + fabsf(hi[1]),
-                z = fabsf(lo[2]) + fabsf(hi[2]);
-    const float xy = x > y ? x : y;
-    const float margin = (xy > z ? xy : z) * RT_BOX_MARGIN;
-    for (int i = 0; i < 3; ++i) {
-        lo[i] -= margin;
-        hi[i] += margin;
-    }
-}
-
-void rt_sphere_box(const rt_sphere *s, float lo[3], float hi[3])
-{
-    const float c[3] = {s->cx, s->cy, s->cz};
-    for (int i = 0; i < 3; ++i) {
-        lo[i] = c[i] - s->radius;
-        hi[i] = c[i] + s->radius;
-    }
-    widen(lo, hi);
-}
-
-void rt_triangle_box(const rt_triangle *t, float lo[3], float hi[3])
-{
-    const float a[3] = {t->ax, t->ay, t->az}, b[3] = {t->bx, t->by, t->bz},
-                c[3] = {t->cx, t->cy, t->cz};
-    for (int i = 0; i < 3; ++i) {
-        const float low = a[i] < b[i] ? a[i] : b[i], high = a[i] > b[i] ? a[i] : b[i];
-        lo[i] = low < c[i] ? low : c[i];
-        hi[i] = high > c[i] ? high : c[i];
-    }
-    widen(lo, hi);
-}
-
 #define CHUNK ((size_t)16384)
 
 static void fill_chunk(void *context, size_t chunk)
 {
     builder *b = context;
-    const rt_scene *scene = b->scene;
-    const size_t end =
-        (chunk + 1) * CHUNK < b->references.count ? (chunk + 1) * CHUNK : b->references.count;
-    for (size_t i = chunk * CHUNK; i < end; ++i) {
-        rt_reference *r = &b->references.items[i];
-        r->primitive = (uint32_t)i;
-        r->begins_leaf = 0;
-        if (i < scene->sphere_count)
-            rt_sphere_box(&scene->spheres[i], r->lo, r->hi);
-        else
-            rt_triangle_box(&scene->triangles[i - scene->sphere_count], r->lo, r->hi);
+    rt_references *refs = &b->references;
+    const size_t begin = chunk * CHUNK;
+    const size_t end = begin + CHUNK < refs->count ? begin + CHUNK : refs->count;
+    for (size_t i = begin; i < end; ++i) {
+        refs->items[i].primitive = (uint32_t)i;
+        refs->items[i].begins_leaf = 0;
+    }
+    size_t first = 0; /* of the kind */
+    for (int k = 0; k < RT_KIND_COUNT; ++k) {
+        const size_t last = refs->ends[k];
+        const size_t from = begin > first ? begin : first, to = end < last ? end : last;
+        if (from < to)
+            rt_boxes_of(b->scene, (enum rt_kind)k, from - first, to - first, &refs->items[from]);
+        first = last;
     }
 }
 
 /* The code of a leaf, with the position among the references in the place of the block. */
 static int32_t leaf_code(const builder *b, const rt_range *r)
 {
-    const uint32_t kind = rt_reference_is_sphere(&b->references, &b->references.items[r->begin])
-                              ? RT_LEAF_SPHERES
-                              : 0U;
-    return (int32_t)((uint32_t)RT_LEAF | kind | (uint32_t)r->begin);
+    return RT_LEAF_OF(rt_reference_kind(&b->references, &b->references.items[r->begin]), r->begin);
 }
 
 static void clear_node(rt_node *node)
@@ -244,11 +210,8 @@ static void mark_leaves(builder *b, rt_bvh *bvh)
             const int32_t child = bvh->nodes[n].child[c];
             if (child >= 0 || !is_filled(&bvh->nodes[n], c))
                 continue;
-            b->references.items[(uint32_t)child & (RT_LEAF_SPHERES - 1U)].begins_leaf = 1;
-            if (child & RT_LEAF_SPHERES)
-                bvh->blocks.sphere_blocks++;
-            else
-                bvh->blocks.triangle_blocks++;
+            b->references.items[RT_LEAF_BLOCK(child)].begins_leaf = 1;
+            bvh->blocks.counts[RT_LEAF_KIND(child)]++;
         }
 }
 
@@ -259,25 +222,26 @@ static bool number_blocks(builder *b, rt_bvh *bvh)
     uint32_t *block_at = malloc((b->references.count + 1) * sizeof *block_at);
     if (!block_at)
         return false;
-    uint32_t next[2] = {0, 0}, place = 0;
-    const size_t triangle_slots = bvh->blocks.sphere_blocks * RT_BLOCK_PRIMITIVES;
+    size_t slots[RT_KIND_COUNT]; /* where the kind's next block begins in the order */
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        slots[k] = rt_blocks_slots_before(&bvh->blocks, (enum rt_kind)k);
+    uint32_t next[RT_KIND_COUNT] = {0};
+    int32_t *place = bvh->blocks.order;
     for (size_t i = 0; i < b->references.count; ++i) {
         const rt_reference *r = &b->references.items[i];
-        const bool sphere = rt_reference_is_sphere(&b->references, r);
         if (r->begins_leaf) {
-            block_at[i] = next[sphere]++;
-            place = 0;
+            const int kind = rt_reference_kind(&b->references, r);
+            block_at[i] = next[kind]++;
+            place = bvh->blocks.order + slots[kind];
+            slots[kind] += RT_BLOCK_PRIMITIVES;
         }
-        const size_t slot = (size_t)(next[sphere] - 1) * RT_BLOCK_PRIMITIVES + place++;
-        bvh->blocks.order[slot + (sphere ? 0 : triangle_slots)] = (int32_t)r->primitive;
+        *place++ = (int32_t)r->primitive;
     }
     for (size_t n = 0; n < bvh->node_count; ++n)
         for (int c = 0; c < RT_WIDTH; ++c) {
             int32_t *child = &bvh->nodes[n].child[c];
-            const uint32_t position = (uint32_t)*child & (RT_LEAF_SPHERES - 1U);
             if (*child < 0 && is_filled(&bvh->nodes[n], c))
-                *child =
-                    (int32_t)(((uint32_t)*child & ~(RT_LEAF_SPHERES - 1U)) | block_at[position]);
+                *child = RT_LEAF_OF(RT_LEAF_KIND(*child), block_at[RT_LEAF_BLOCK(*child)]);
         }
     free(block_at);
     return true;
@@ -319,12 +283,13 @@ static bool build(builder *b, rt_bvh *bvh, const rt_scene *scene)
 bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *status)
 {
     *bvh = (rt_bvh){0};
-    const size_t count = scene->sphere_count + scene->triangle_count;
-    if (count >= RT_LEAF_SPHERES)
+    const size_t count = rt_scene_primitive_count(scene);
+    if (count >= RT_LEAF_BLOCKS)
         return rt_status_fail(status, RT_ERROR_SCENE, "rt: %zu primitives; the tree takes %d",
-                              count, RT_LEAF_SPHERES - 1);
-    builder b = {
-        .scene = scene, .references = {NULL, count, scene->sphere_count}, .threads = threads};
+                              count, RT_LEAF_BLOCKS - 1);
+    builder b = {.scene = scene, .references = {.count = count}, .threads = threads};
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        b.references.ends[k] = (uint32_t)rt_scene_primitives_before(scene, (enum rt_kind)(k + 1));
     b.references.items = malloc((count + 1) * sizeof *b.references.items);
     const bool good = b.references.items && build(&b, bvh, scene);
     for (size_t i = 0; i < RT_WIDTH; ++i)

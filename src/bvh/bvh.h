@@ -1,4 +1,4 @@
-/* A bounding-volume hierarchy over spheres and triangles together, flat for the device.
+/* A bounding-volume hierarchy over primitives of all kinds together, flat for the device.
  *
  * Nodes have up to 16 children, whose boxes lie side by side so that one vector operation tests
  * them all. Splits follow the surface-area heuristic (MacDonald and Booth 1990) over binned
@@ -25,11 +25,5 @@ typedef struct rt_bvh {
  * more primitives than leaves can name) nothing is owned. */
 bool rt_bvh_build(rt_bvh *bvh, const rt_scene *scene, int threads, rt_status *status);
 void rt_bvh_clear(rt_bvh *bvh);
-
-/* The box that holds a primitive's hits at every level: lo and hi of x, y, z, with RT_BOX_MARGIN of
- * kernels/margins.h. At robust and double the kernels compute the same, at standard a narrower one.
- */
-void rt_sphere_box(const rt_sphere *sphere, float lo[3], float hi[3]);
-void rt_triangle_box(const rt_triangle *triangle, float lo[3], float hi[3]);
 
 #endif

@@ -55,11 +55,6 @@ float rt_box_half_area(const rt_box *b)
     return x >= 0.0f ? x * y + y * z + z * x : 0.0f;
 }
 
-bool rt_reference_is_sphere(const rt_references *refs, const rt_reference *r)
-{
-    return r->primitive < refs->sphere_count;
-}
-
 rt_range rt_range_whole(const rt_references *refs)
 {
     rt_range r = {0, refs->count, empty_box(), empty_box(), 0};
@@ -190,6 +185,16 @@ static void halve(const rt_references *refs, const rt_range *r, rt_range sides[2
         add_reference(&sides[i >= middle], &refs->items[i]);
 }
 
+static int least_kind(const rt_references *refs, const rt_range *r)
+{
+    int least = RT_KIND_COUNT;
+    for (size_t i = r->begin; i < r->end; ++i) {
+        const int kind = rt_reference_kind(refs, &refs->items[i]);
+        least = kind < least ? kind : least;
+    }
+    return least;
+}
+
 void rt_range_split(const rt_references *refs, const rt_range *r, rt_range sides[2])
 {
     for (int side = 0; side < 2; ++side)
@@ -198,9 +203,10 @@ void rt_range_split(const rt_references *refs, const rt_range *r, rt_range sides
     plane p = {.axis = -1};
     if (!is_small && r->depth < DEPTH_OF_HEURISTIC)
         p = find_plane(refs, r);
-    if (is_small) /* split for its two kinds alone */
-        PARTITION(refs, r, sides, rt_reference_is_sphere(refs, ref));
-    else if (p.axis >= 0)
+    if (is_small) { /* split for its kinds alone */
+        const int kind = least_kind(refs, r);
+        PARTITION(refs, r, sides, rt_reference_kind(refs, ref) == kind);
+    } else if (p.axis >= 0)
         PARTITION(refs, r, sides,
                   bin_of(ref->lo[p.axis] + ref->hi[p.axis], p.origin, p.scale, p.bins) < p.bin);
     else
@@ -210,8 +216,8 @@ void rt_range_split(const rt_references *refs, const rt_range *r, rt_range sides
 static bool is_mixed(const rt_references *refs, const rt_range *r)
 {
     for (size_t i = r->begin + 1; i < r->end; ++i)
-        if (rt_reference_is_sphere(refs, &refs->items[i]) !=
-            rt_reference_is_sphere(refs, &refs->items[r->begin]))
+        if (rt_reference_kind(refs, &refs->items[i]) !=
+            rt_reference_kind(refs, &refs->items[r->begin]))
             return true;
     return false;
 }

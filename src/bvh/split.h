@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "kernels/primitives/kinds.h"
 #include "kernels/layout.h"
 
 /* Primitives at which a range is split no further: what a leaf's block holds. */
@@ -35,8 +36,9 @@ typedef struct rt_range {
 } rt_range;
 
 typedef struct rt_references {
-    rt_reference *items;        /* owned by the builder */
-    size_t count, sphere_count; /* primitives below sphere_count are spheres */
+    rt_reference *items; /* owned by the builder */
+    size_t count;
+    uint32_t ends[RT_KIND_COUNT]; /* primitives below are of that kind or of one before */
 } rt_references;
 
 /* All references, with their bounds. */
@@ -48,7 +50,13 @@ bool rt_range_is_leaf(const rt_references *refs, const rt_range *rt_range);
 /* Splits a range that is no leaf into two that are not empty; its references change places. */
 void rt_range_split(const rt_references *refs, const rt_range *range, rt_range sides[2]);
 
-bool rt_reference_is_sphere(const rt_references *refs, const rt_reference *rt_reference);
+static inline int rt_reference_kind(const rt_references *refs, const rt_reference *reference)
+{
+    int kind = 0;
+    for (int k = 0; k < RT_KIND_COUNT - 1; ++k)
+        kind += reference->primitive >= refs->ends[k];
+    return kind;
+}
 
 /* Half the surface area; 0 for an empty box. */
 float rt_box_half_area(const rt_box *rt_box);

@@ -20,6 +20,14 @@ static json_t *devices_of(const rt_stats *s)
     return devices;
 }
 
+static json_t *primitives_of(const rt_scene *scene)
+{
+    json_t *primitives = json_object();
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        json_object_set_new(primitives, rt_kinds[k].names, count_of(scene->kinds[k].count));
+    return primitives;
+}
+
 static json_t *effects_of(const rt_effects *e)
 {
     json_t *effects = json_array();
@@ -87,12 +95,11 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
     const rt_render_times t = times_of(s);
     const names n = names_of(s);
     json_t *root = json_pack(
-        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:{s:o,s:o},s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device", n.device,
+        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device", n.device,
         "platform", n.platform, "driver", n.driver, "accuracy", n.accuracy, "lanes", n.lanes,
-        "width", scene->width, "height", scene->height, "primitives", "spheres",
-        count_of(scene->sphere_count), "triangles", count_of(scene->triangle_count), "lights",
-        count_of(scene->light_count), "materials", count_of(scene->material_count), "rays",
-        rays_of(&t), "seconds", seconds_of(s, &t), "stages", stages_of(&t), "effects",
+        "width", scene->width, "height", scene->height, "primitives", primitives_of(scene),
+        "lights", count_of(scene->light_count), "materials", count_of(scene->material_count),
+        "rays", rays_of(&t), "seconds", seconds_of(s, &t), "stages", stages_of(&t), "effects",
         effects_of(s->effects), "devices", devices_of(s));
     return rt_json_write(root, "--stats", output, status);
 }

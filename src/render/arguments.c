@@ -4,7 +4,7 @@
 #include "render/state.h"
 #include "scene/camera.h"
 
-#define KNOWN_MOST 64
+#define KNOWN_MOST (64 + 3 * RT_KIND_COUNT)
 
 typedef struct known {
     rt_argument list[KNOWN_MOST];
@@ -38,16 +38,18 @@ static void know_tile(known *k, const rt_renderer *r)
     KNOW(k, "stride", r->stride);
 }
 
+/* A kind's blocks and their number, and the number of primitives. */
+#define KNOW_KIND(name, names, NAMES)                                                              \
+    KNOW(k, #names, s->blocks[RT_KIND_##NAMES]);                                                   \
+    KNOW(k, #name "_blocks", s->block_counts[RT_KIND_##NAMES]);                                    \
+    KNOW(k, #name "_count", s->counts[RT_KIND_##NAMES]);
+
 /* The scene's arrays. */
 static void know_scene(known *k, const rt_device_scene *s)
 {
     KNOW(k, "nodes", s->nodes);
     KNOW(k, "order", s->order);
-    KNOW(k, "spheres", s->spheres);
-    KNOW(k, "sphere_count", s->sphere_count);
-    KNOW(k, "sphere_blocks", s->sphere_blocks);
-    KNOW(k, "triangles", s->triangles);
-    KNOW(k, "triangle_blocks", s->triangle_blocks);
+    RT_KINDS(KNOW_KIND)
     KNOW(k, "normals_of", s->normals_of);
     KNOW(k, "normals", s->normals);
     KNOW(k, "material_of", s->materials_of);

@@ -26,20 +26,23 @@ static bool upload(const uploader *u, const void *bytes, size_t size, cl_mem *bu
                   status));
 }
 
-/* One array of material indices for all primitives, spheres first. */
+/* One array of material indices for all primitives. */
 static bool upload_material_indices(const uploader *u, const rt_scene *scene, rt_status *status)
 {
-    const size_t spheres = scene->sphere_count * sizeof *scene->sphere_materials;
-    const size_t triangles = scene->triangle_count * sizeof *scene->triangle_materials;
+    const size_t size = sizeof(int32_t);
     cl_mem *buffer = &u->target->materials_of;
-    return rt_buffer_make(u->context, CL_MEM_READ_ONLY, spheres + triangles, buffer, status) &&
-           (spheres == 0 || RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, 0, spheres,
-                                                       scene->sphere_materials, 0, NULL, NULL),
-                                  status)) &&
-           (triangles == 0 ||
-            RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, spheres, triangles,
-                                       scene->triangle_materials, 0, NULL, NULL),
-                  status));
+    bool good = rt_buffer_make(u->context, CL_MEM_READ_ONLY, rt_scene_primitive_count(scene) * size,
+                               buffer, status);
+    size_t at = 0;
+    for (int k = 0; good && k < RT_KIND_COUNT; ++k) {
+        const rt_primitives *p = &scene->kinds[k];
+        good = p->count == 0 ||
+               RT_CL(clEnqueueWriteBuffer(u->queue, *buffer, CL_TRUE, at, p->count * size,
+                                          p->materials, 0, NULL, NULL),
+                     status);
+        at += p->count * size;
+    }
+    return good;
 }
 
 /* The arrays that the trace stage works on. */
@@ -52,16 +55,15 @@ static bool upload_geometry(const uploader *u, const rt_scene *scene, const rt_b
         return false;
     const rt_blocks *blocks = bvh ? &bvh->blocks : &in_order;
     const size_t slots = rt_blocks_slots(blocks) + RT_ORDER_PADDING;
-    b->sphere_blocks = (cl_int)blocks->sphere_blocks;
-    b->triangle_blocks = (cl_int)blocks->triangle_blocks;
-    const bool good =
-        upload(u, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
-               &b->nodes, status) &&
-        upload(u, blocks->order, slots * sizeof *blocks->order, &b->order, status) &&
-        upload(u, blocks->spheres, (blocks->sphere_blocks + 1) * sizeof *blocks->spheres,
-               &b->spheres, status) &&
-        upload(u, blocks->triangles, (blocks->triangle_blocks + 1) * sizeof *blocks->triangles,
-               &b->triangles, status);
+    bool good = upload(u, bvh ? bvh->nodes : NULL, bvh ? bvh->node_count * sizeof *bvh->nodes : 0,
+                       &b->nodes, status) &&
+                upload(u, blocks->order, slots * sizeof *blocks->order, &b->order, status);
+    for (int k = 0; good && k < RT_KIND_COUNT; ++k) {
+        b->counts[k] = (cl_int)scene->kinds[k].count;
+        b->block_counts[k] = (cl_int)blocks->counts[k];
+        good = upload(u, blocks->kinds[k], (blocks->counts[k] + 1) * rt_kinds[k].block_size,
+                      &b->blocks[k], status);
+    }
     rt_blocks_clear(&in_order);
     return good;
 }
@@ -93,7 +95,6 @@ bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_comm
 {
     const uploader up = {context, queue, target}, *u = &up;
     rt_device_scene *b = target;
-    b->sphere_count = (cl_int)scene->sphere_count;
     return upload_geometry(u, scene, bvh, status) && upload_material_indices(u, scene, status) &&
            upload(u, scene->materials, scene->material_count * sizeof *scene->materials,
                   &b->materials, status) &&
@@ -105,11 +106,14 @@ bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_comm
 
 void rt_device_scene_release(rt_device_scene *s)
 {
-    const cl_mem buffers[] = {s->nodes,     s->order,        s->spheres,    s->triangles, s->lights,
-                              s->materials, s->materials_of, s->normals_of, s->normals,   s->uvs_of,
-                              s->uvs,       s->textures,     s->texels};
+    const cl_mem buffers[] = {s->nodes,        s->order,      s->lights,  s->materials,
+                              s->materials_of, s->normals_of, s->normals, s->uvs_of,
+                              s->uvs,          s->textures,   s->texels};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])
             clReleaseMemObject(buffers[i]);
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        if (s->blocks[k])
+            clReleaseMemObject(s->blocks[k]);
     *s = (rt_device_scene){0};
 }

@@ -12,11 +12,11 @@
 #include "scene/scene.h"
 
 typedef struct rt_device_scene {
-    cl_mem nodes, order, spheres, triangles; /* the tree and its blocks; kernels/layout.h */
-    cl_mem materials_of, materials, lights;  /* the first by primitive */
-    cl_mem normals_of, normals;              /* where normals are smooth; by triangle */
-    cl_mem uvs_of, uvs, textures, texels;    /* where there are textures; the first by triangle */
-    cl_int sphere_count, sphere_blocks, triangle_blocks;
+    cl_mem nodes, order, blocks[RT_KIND_COUNT]; /* the tree and its leaves' blocks */
+    cl_mem materials_of, materials, lights;     /* the first by primitive */
+    cl_mem normals_of, normals;                 /* where normals are smooth; by triangle */
+    cl_mem uvs_of, uvs, textures, texels; /* where there are textures; the first by triangle */
+    cl_int counts[RT_KIND_COUNT], block_counts[RT_KIND_COUNT];
 } rt_device_scene;
 
 /* Uploads all that the effects have use for; without a tree the blocks are in the scene's own

@@ -30,6 +30,17 @@ static int value_of(const rt_effects *effects, enum rt_effect effect)
     return effect == RT_EFFECT_CULL ? effects->cull_sign : rt_effects_has(effects, effect);
 }
 
+static void kind_options(const rt_effects *effects, char *options, size_t size)
+{
+#define WORD(name, names, NAMES) #NAMES,
+    static const char *const words[RT_KIND_COUNT] = {RT_KINDS(WORD)};
+#undef WORD
+    size_t length = strlen(options);
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        length += (size_t)snprintf(options + length, size - length, " -DRT_%s=%d", words[k],
+                                   effects->mode == RT_EFFECTS_ALL || effects->has_kind[k]);
+}
+
 static void effect_options(const rt_effects *effects, char *options, size_t size)
 {
 #define WORD(word, name) #word,
@@ -53,14 +64,14 @@ void rt_variant_options(const rt_effects *effects, const rt_walk *walk, enum rt_
     snprintf(options, RT_VARIANT_OPTIONS_SIZE,
              "-cl-std=CL1.2 " RT_ARGUMENTS_OPTION
              "%s%s -DRT_ACCURACY=%d -DRT_LANES=%d -DRT_PACKET=%d -DRT_TREE=%d "
-             "-DRT_STACK=%d -DRT_OCCLUSION=%d -DRT_SPHERES=%d -DRT_TRIANGLES=%d "
+             "-DRT_STACK=%d -DRT_OCCLUSION=%d "
              "-DRT_SHININESS_BITS=%d -DRT_SHININESS_FRACTION=%d -DRT_ROUNDING=%d",
              rounding == RT_ROUNDING_DEVICE ? " -cl-fp32-correctly-rounded-divide-sqrt" : "",
              walk->accuracy == RT_ACCURACY_FAST ? " -cl-fast-relaxed-math -cl-denorms-are-zero"
                                                 : "",
              (int)walk->accuracy, walk->lanes, walk->packet, walk->stack_size > 0,
-             round_stack(walk->stack_size), walk->with_occlusion, all || effects->has_spheres,
-             all || effects->has_triangles, all ? 20 : effects->exponent_bits,
+             round_stack(walk->stack_size), walk->with_occlusion, all ? 20 : effects->exponent_bits,
              all || effects->has_fractional_exponent, (int)rounding);
+    kind_options(effects, options, RT_VARIANT_OPTIONS_SIZE);
     effect_options(effects, options, RT_VARIANT_OPTIONS_SIZE);
 }

@@ -41,12 +41,12 @@ typedef struct first_materials {
 } first_materials;
 
 /* Takes in the materials of some primitives, which mostly come in runs of one. */
-static void take_materials(rt_effects *effects, const rt_scene *scene, const int32_t *indices,
-                           size_t count, first_materials *first)
+static void take_materials(rt_effects *effects, const rt_scene *scene,
+                           const rt_primitives *primitives, first_materials *first)
 {
     int32_t last = -1;
-    for (size_t i = 0; i < count; ++i) {
-        const int32_t index = indices[i];
+    for (size_t i = 0; i < primitives->count; ++i) {
+        const int32_t index = primitives->materials[i];
         if (index == last)
             continue;
         last = index;
@@ -66,8 +66,8 @@ static void settle_materials(rt_effects *effects, const rt_scene *scene)
     first_materials first;
     for (int e = 0; e < RT_EFFECT_COUNT; ++e)
         first.by_effect[e] = INT_MAX;
-    take_materials(effects, scene, scene->sphere_materials, scene->sphere_count, &first);
-    take_materials(effects, scene, scene->triangle_materials, scene->triangle_count, &first);
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        take_materials(effects, scene, &scene->kinds[kind], &first);
     for (int e = 0; e < RT_EFFECT_COUNT; ++e)
         if (first.by_effect[e] != INT_MAX)
             call(effects, (enum rt_effect)e, true, scene->material_places[first.by_effect[e]]);
@@ -84,8 +84,7 @@ static void settle_lights(rt_effects *effects, const rt_scene *scene)
         else
             effects->has_directional_lights = true;
         call(effects, is_soft ? RT_EFFECT_SOFT_SHADOWS : RT_EFFECT_HARD_SHADOWS,
-             light->shadow && (effects->has_spheres || effects->has_triangles),
-             scene->light_places[i]);
+             light->shadow && effects->has_primitives, scene->light_places[i]);
     }
 }
 
@@ -97,11 +96,13 @@ static bool differ(rt_vec3 a, rt_vec3 b)
 rt_effects rt_effects_of(const rt_scene *scene)
 {
     rt_effects effects = {.mode = RT_EFFECTS_SCENE,
-                          .has_spheres = scene->sphere_count > 0,
-                          .has_triangles = scene->triangle_count > 0,
+                          .has_primitives = rt_scene_primitive_count(scene) > 0,
                           .exponent_bits = FEW_BITS};
     rt_effects *e = &effects;
-    call(e, RT_EFFECT_CULL, e->has_triangles && scene->cull != RT_CULL_NONE, scene->cull_place);
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        e->has_kind[kind] = scene->kinds[kind].count > 0;
+    call(e, RT_EFFECT_CULL, e->has_kind[RT_KIND_TRIANGLES] && scene->cull != RT_CULL_NONE,
+         scene->cull_place);
     e->cull_sign = e->on[RT_EFFECT_CULL] ? rt_scene_cull_sign(scene) : 0;
     call(e, RT_EFFECT_SMOOTH, scene->normal_count > 0, scene->smooth_place);
     settle_materials(e, scene);

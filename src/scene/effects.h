@@ -20,7 +20,7 @@ typedef struct rt_effects {
     enum rt_effects_mode mode;
     bool on[RT_EFFECT_COUNT];
     rt_place called_by[RT_EFFECT_COUNT]; /* the first statement that called for it */
-    bool has_spheres, has_triangles;
+    bool has_primitives, has_kind[RT_KIND_COUNT];
     bool has_point_lights, has_directional_lights;
     int light_count;
     int cull_sign;                /* rt_scene_cull_sign */

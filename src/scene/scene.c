@@ -27,10 +27,8 @@ void rt_scene_clear(rt_scene *scene)
     free(scene->light_places);
     free(scene->materials);
     free(scene->material_places);
-    free(scene->spheres);
-    free(scene->sphere_materials);
-    free(scene->triangles);
-    free(scene->triangle_materials);
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        rt_primitives_clear(&scene->kinds[kind]);
     free(scene->triangle_normals);
     free(scene->normals);
     free(scene->triangle_uvs);
@@ -72,51 +70,68 @@ bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_stat
     return true;
 }
 
-static bool has_free_indices(const rt_scene *scene, size_t count, rt_status *status)
+size_t rt_scene_primitives_before(const rt_scene *scene, enum rt_kind kind)
 {
-    if (count <= INT32_MAX - scene->sphere_count - scene->triangle_count)
-        return true;
-    return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
+    size_t count = 0;
+    for (int k = 0; k < (int)kind; ++k)
+        count += scene->kinds[k].count;
+    return count;
+}
+
+size_t rt_scene_primitive_count(const rt_scene *scene)
+{
+    return rt_scene_primitives_before(scene, RT_KIND_COUNT);
+}
+
+enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index)
+{
+    int kind = 0;
+    for (; kind < RT_KIND_COUNT - 1 && *index >= scene->kinds[kind].count; ++kind)
+        *index -= scene->kinds[kind].count;
+    return (enum rt_kind)kind;
+}
+
+static bool reserve(rt_scene *scene, enum rt_kind kind, size_t more, rt_status *status)
+{
+    if (more > INT32_MAX - rt_scene_primitive_count(scene))
+        return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
+    return rt_primitives_reserve(&scene->kinds[kind], kind, more) ||
+           rt_status_no_memory(status, rt_kinds[kind].names);
+}
+
+bool rt_scene_add_primitive(rt_scene *scene, enum rt_kind kind, const void *primitive,
+                            int32_t material, rt_status *status)
+{
+    rt_primitives *p = &scene->kinds[kind];
+    const size_t size = rt_kinds[kind].size;
+    if (!reserve(scene, kind, 1, status))
+        return false;
+    memcpy((char *)p->items + p->count * size, primitive, size);
+    p->materials[p->count++] = material;
+    return true;
 }
 
 bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
                          rt_status *status)
 {
-    if (!has_free_indices(scene, 1, status))
-        return false;
-    /* Two arrays grow in step: the capacity moves once both have. */
-    size_t capacity = scene->sphere_capacity;
-    if (!RT_ARRAY_GROW(scene->spheres, scene->sphere_count, &capacity))
-        return rt_status_no_memory(status, "spheres");
-    capacity = scene->sphere_capacity;
-    if (!RT_ARRAY_GROW(scene->sphere_materials, scene->sphere_count, &capacity))
-        return rt_status_no_memory(status, "spheres");
-    scene->sphere_capacity = capacity;
-    scene->spheres[scene->sphere_count] = *sphere;
-    scene->sphere_materials[scene->sphere_count++] = material;
-    return true;
+    return rt_scene_add_primitive(scene, RT_KIND_SPHERES, sphere, material, status);
 }
 
 bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
                                 rt_status *status)
 {
-    if (!has_free_indices(scene, triangles, status))
+    if (!reserve(scene, RT_KIND_TRIANGLES, triangles, status))
         return false;
-    /* Four arrays grow in step: the capacity moves once all have. */
+    /* Two arrays grow in step: the capacity moves once both have. */
     const size_t needed = scene->triangle_count + triangles;
-    size_t capacity = scene->triangle_capacity;
-    bool grown = rt_array_reserve(&scene->triangles, needed, &capacity, sizeof *scene->triangles);
-    capacity = scene->triangle_capacity;
-    grown = grown && rt_array_reserve(&scene->triangle_materials, needed, &capacity,
-                                      sizeof *scene->triangle_materials);
-    capacity = scene->triangle_capacity;
-    grown = grown && rt_array_reserve(&scene->triangle_normals, needed, &capacity,
-                                      sizeof *scene->triangle_normals);
-    capacity = scene->triangle_capacity;
+    size_t capacity = scene->triangle_record_capacity;
+    bool grown = rt_array_reserve(&scene->triangle_normals, needed, &capacity,
+                                  sizeof *scene->triangle_normals);
+    capacity = scene->triangle_record_capacity;
     grown = grown &&
             rt_array_reserve(&scene->triangle_uvs, needed, &capacity, sizeof *scene->triangle_uvs);
     if (grown)
-        scene->triangle_capacity = capacity;
+        scene->triangle_record_capacity = capacity;
     grown =
         grown && rt_array_reserve(&scene->normals, scene->normal_count + normals,
                                   &scene->normal_capacity, RT_NORMAL_COMPONENTS * sizeof(float));
@@ -127,19 +142,14 @@ bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const f
                            int32_t material, rt_status *status)
 {
     const size_t count = scene->triangle_count;
-    const bool has_room = count < scene->triangle_capacity &&
-                          (!normals || scene->normal_count < scene->normal_capacity);
-    if (!(has_room ? has_free_indices(scene, 1, status)
-                   : rt_scene_reserve_triangles(scene, 1, normals ? 1 : 0, status)))
+    if (!rt_scene_reserve_triangles(scene, 1, normals ? 1 : 0, status) ||
+        !rt_scene_add_primitive(scene, RT_KIND_TRIANGLES, triangle, material, status))
         return false;
-    scene->triangles[count] = *triangle;
-    scene->triangle_materials[count] = material;
     scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count : -1;
     scene->triangle_uvs[count] = -1;
     if (normals)
         memcpy(scene->normals + RT_NORMAL_COMPONENTS * scene->normal_count++, normals,
                RT_NORMAL_COMPONENTS * sizeof *normals);
-    scene->triangle_count++;
     return true;
 }
 

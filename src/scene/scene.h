@@ -10,6 +10,7 @@
 #include "common/accuracy.h"
 #include "common/status.h"
 #include "kernels/layout.h"
+#include "scene/primitive.h"
 #include "scene/triangle.h"
 
 #define RT_IMAGE_SIDE_MAX 65535
@@ -21,11 +22,6 @@
 #define RT_DEPTH_MAX 1024
 /* Of all textures together: 1 GiB, and every index and byte count is within 32 bits. */
 #define RT_TEXELS_MAX (INT64_C(1) << 28)
-
-/* Primitive indices count the spheres first, in file order, then the triangles. */
-typedef struct rt_sphere {
-    float cx, cy, cz, radius;
-} rt_sphere;
 
 typedef struct rt_vec3 {
     float x, y, z;
@@ -72,15 +68,24 @@ typedef struct rt_scene {
     rt_place cull_place, smooth_place, image_place, camera_place, background_place, fog_place;
     rt_place occlusion_place;
 
-    /* All arrays are owned. Primitive indices count spheres, then triangles. */
+    /* Each kind's primitives by number, and the same by name: spheres, sphere_materials,
+     * sphere_count, sphere_capacity. Primitive indices go through the kinds one after another. */
+    union {
+        rt_primitives kinds[RT_KIND_COUNT];
+        struct {
+#define RT_KIND_BY_NAME(name, names, NAMES)                                                        \
+    rt_##name *names;                                                                              \
+    int32_t *name##_materials;                                                                     \
+    size_t name##_count, name##_capacity;
+            RT_KINDS(RT_KIND_BY_NAME)
+        };
+    };
+
+    /* All arrays are owned. */
     rt_light *lights;
     rt_place *light_places; /* of what calls for the shadow of each, or of the light */
     rt_material *materials;
     rt_place *material_places;
-    rt_sphere *spheres;
-    int32_t *sphere_materials;
-    rt_triangle *triangles;
-    int32_t *triangle_materials;
     int32_t *triangle_normals; /* record in `normals`, or -1 */
     float *normals;            /* RT_NORMAL_COMPONENTS a record: na, nb, nc */
     int32_t *triangle_uvs;     /* record in `uvs`, or -1 */
@@ -90,8 +95,7 @@ typedef struct rt_scene {
     uint32_t *texels;     /* of all textures */
     size_t light_count, light_capacity;
     size_t material_count, material_capacity;
-    size_t sphere_count, sphere_capacity;
-    size_t triangle_count, triangle_capacity;
+    size_t triangle_record_capacity;      /* of triangle_normals and triangle_uvs */
     size_t normal_count, normal_capacity; /* records */
     size_t uv_count, uv_capacity;         /* records */
     size_t texture_count, texture_capacity;
@@ -111,6 +115,8 @@ void rt_scene_clear(rt_scene *scene);
  * have no place until one is set. */
 bool rt_scene_add_light(rt_scene *scene, const rt_light *light, rt_status *status);
 bool rt_scene_add_material(rt_scene *scene, const rt_material *material, rt_status *status);
+bool rt_scene_add_primitive(rt_scene *scene, enum rt_kind kind, const void *primitive,
+                            int32_t material, rt_status *status);
 bool rt_scene_add_sphere(rt_scene *scene, const rt_sphere *sphere, int32_t material,
                          rt_status *status);
 bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const float *normals,
@@ -122,6 +128,12 @@ bool rt_scene_set_uvs(rt_scene *scene, const float *uvs, rt_status *status);
 /* Makes room at once for so many triangles more, and records of normals. */
 bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normals,
                                 rt_status *status);
+
+/* Primitives of all kinds together, and those of the kinds before one. */
+size_t rt_scene_primitive_count(const rt_scene *scene);
+size_t rt_scene_primitives_before(const rt_scene *scene, enum rt_kind kind);
+/* The kind of the primitive of an index, which is made the place among those of its kind. */
+enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index);
 
 /* Brings a scene that is complete to a unit of length (unit_exponent) in which the arithmetic of
  * float has room: largest coordinate of primitives and eye from 2^-10 to 2^38. Exact, but for what

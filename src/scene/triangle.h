@@ -4,9 +4,7 @@
 
 #include <stdbool.h>
 
-typedef struct rt_triangle {
-    float ax, ay, az, bx, by, bz, cx, cy, cz;
-} rt_triangle;
+#include "kernels/primitives/kinds.h"
 
 /* True where the two corners of an edge coincide or all three lie on a line, so that the triangle
  * has no area. */

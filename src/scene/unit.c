@@ -20,16 +20,8 @@ static float largest_coordinate(const rt_scene *scene)
 {
     const rt_vec3 from = scene->camera.from;
     float most = largest_of(from.x, from.y, from.z);
-    for (size_t i = 0; i < scene->sphere_count; ++i) {
-        const rt_sphere *s = &scene->spheres[i];
-        most = fmaxf(most, fmaxf(largest_of(s->cx, s->cy, s->cz), s->radius));
-    }
-    for (size_t i = 0; i < scene->triangle_count; ++i) {
-        const rt_triangle *t = &scene->triangles[i];
-        most = fmaxf(most, largest_of(t->ax, t->ay, t->az));
-        most = fmaxf(most, largest_of(t->bx, t->by, t->bz));
-        most = fmaxf(most, largest_of(t->cx, t->cy, t->cz));
-    }
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        most = fmaxf(most, rt_primitives_largest(&scene->kinds[kind], (enum rt_kind)kind));
     return most;
 }
 
@@ -77,17 +69,8 @@ static void scale_all(rt_scene *scene, int exponent)
         m->absorb_g = scaled(m->absorb_g, -exponent);
         m->absorb_b = scaled(m->absorb_b, -exponent);
     }
-    for (size_t i = 0; i < scene->sphere_count; ++i) {
-        rt_sphere *s = &scene->spheres[i];
-        scale(&s->cx, &s->cy, &s->cz, exponent);
-        s->radius = ldexpf(s->radius, exponent);
-    }
-    for (size_t i = 0; i < scene->triangle_count; ++i) {
-        rt_triangle *t = &scene->triangles[i];
-        scale(&t->ax, &t->ay, &t->az, exponent);
-        scale(&t->bx, &t->by, &t->bz, exponent);
-        scale(&t->cx, &t->cy, &t->cz, exponent);
-    }
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        rt_primitives_scale(&scene->kinds[kind], (enum rt_kind)kind, exponent);
 }
 
 void rt_scene_choose_unit(rt_scene *scene)

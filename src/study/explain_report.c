@@ -43,15 +43,16 @@ static int place_width(const rt_effects *effects)
 /* Effects that are no statements of their own. */
 static void print_content(const rt_effects *e, FILE *out)
 {
-    const char *primitives = e->has_spheres && e->has_triangles ? "spheres and triangles"
-                             : e->has_spheres                   ? "spheres alone"
-                             : e->has_triangles                 ? "triangles alone"
-                                                                : "no primitives";
+    int count = 0;
+    fprintf(out, "primitives: %s", e->has_primitives ? "" : "no primitives");
+    for (int k = 0; k < RT_KIND_COUNT; ++k)
+        if (e->has_kind[k])
+            fprintf(out, "%s%s", count++ ? " and " : "", rt_kinds[k].names);
     const char *kinds = e->has_point_lights && e->has_directional_lights ? "point and directional"
                         : e->has_point_lights                            ? "point alone"
                         : e->has_directional_lights                      ? "directional alone"
                                                                          : "no kind";
-    fprintf(out, "primitives: %s; lights: %d, %s\n", primitives, e->light_count, kinds);
+    fprintf(out, "%s; lights: %d, %s\n", count == 1 ? " alone" : "", e->light_count, kinds);
 }
 
 void rt_explain_print(const rt_explanation *e, FILE *out)

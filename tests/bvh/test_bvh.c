@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bvh/box.h"
 #include "bvh/bvh.h"
 #include "reference/scalar.h"
 
@@ -281,21 +282,20 @@ static size_t audit_node(const audit *a, int node)
             below = need > below ? need : below;
             continue;
         }
-        const size_t block = (size_t)(n->child[c] & (RT_LEAF_SPHERES - 1));
-        const bool sphere = n->child[c] & RT_LEAF_SPHERES;
+        const enum rt_kind kind = (enum rt_kind)RT_LEAF_KIND(n->child[c]);
+        const size_t first = rt_scene_primitives_before(a->scene, kind);
+        const size_t slot = rt_blocks_slots_before(blocks, kind) +
+                            (size_t)RT_LEAF_BLOCK(n->child[c]) * RT_BLOCK_PRIMITIVES;
         for (size_t k = 0; k < RT_BLOCK_PRIMITIVES; ++k) {
-            const size_t slot = (block + (sphere ? 0 : blocks->sphere_blocks)) * 4 + k;
-            const int32_t primitive = blocks->order[slot];
-            float lo[3], hi[3];
+            const int32_t primitive = blocks->order[slot + k];
             if (primitive < 0)
                 continue;
             assert_true(!a->seen[primitive]++);
-            const size_t i = (size_t)primitive;
-            if (sphere)
-                rt_sphere_box(&a->scene->spheres[i], lo, hi);
-            else
-                rt_triangle_box(&a->scene->triangles[i - a->scene->sphere_count], lo, hi);
-            audit_box(lo, hi, n, c);
+            const size_t i = (size_t)primitive - first;
+            rt_reference boxed;
+            assert_true((size_t)primitive >= first && i < a->scene->kinds[kind].count);
+            rt_boxes_of(a->scene, kind, i, i + 1, &boxed);
+            audit_box(boxed.lo, boxed.hi, n, c);
         }
     }
     return children + below;

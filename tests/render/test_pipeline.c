@@ -99,7 +99,7 @@ static void what_each_effect_adds(void **state)
                                          "rt_resolve_hits"};
     cl_uint counts[sizeof always / sizeof *always];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        rt_effects effects = {.has_spheres = true, .has_triangles = true, .exponent_bits = 8};
+        rt_effects effects = {.has_kind = {true, true}, .exponent_bits = 8};
         const bool probes = cases[i].effect == RT_EFFECT_HARD_SHADOWS ||
                             cases[i].effect == RT_EFFECT_SOFT_SHADOWS ||
                             cases[i].effect == RT_EFFECT_AMBIENT_OCCLUSION;

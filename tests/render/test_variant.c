@@ -9,7 +9,7 @@ static void options_name_what_the_scene_has(void **state)
 {
     (void)state;
     char options[RT_VARIANT_OPTIONS_SIZE];
-    const rt_effects effects = {.has_triangles = true,
+    const rt_effects effects = {.has_kind[RT_KIND_TRIANGLES] = true,
                                 .on = {[RT_EFFECT_CULL] = true, [RT_EFFECT_HARD_SHADOWS] = true},
                                 .cull_sign = -1,
                                 .exponent_bits = 8};
@@ -19,9 +19,9 @@ static void options_name_what_the_scene_has(void **state)
     assert_string_equal(
         options, "-cl-std=CL1.2 -cl-kernel-arg-info -DRT_ACCURACY=1 -DRT_LANES=4 -DRT_PACKET=64 "
                  "-DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 "
-                 "-DRT_SPHERES=0 -DRT_TRIANGLES=1 "
                  "-DRT_SHININESS_BITS=8 -DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1 "
-                 "-DRT_LIGHTS=0 -DRT_CULL=-1 -DRT_SMOOTH=0 -DRT_CHECKER=0 -DRT_TEXTURE=0 "
+                 "-DRT_SPHERES=0 -DRT_TRIANGLES=1 -DRT_LIGHTS=0 -DRT_CULL=-1 -DRT_SMOOTH=0 "
+                 "-DRT_CHECKER=0 -DRT_TEXTURE=0 "
                  "-DRT_HARD_SHADOWS=1 -DRT_SOFT_SHADOWS=0 -DRT_REFLECT=0 -DRT_REFRACT=0 "
                  "-DRT_ABSORB=0 -DRT_AMBIENT_OCCLUSION=0 -DRT_FOG=0 -DRT_GRADIENT=0 "
                  "-DRT_ANTIALIAS=0 -DRT_LENS=0");

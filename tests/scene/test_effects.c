@@ -24,8 +24,8 @@ static void phong_alone_calls_for_nothing(void **state)
     const rt_effects e = effects_of(MATERIAL SPHERE);
     for (int i = 0; i < RT_EFFECT_COUNT; ++i)
         assert_false(e.on[i]);
-    assert_true(e.has_spheres);
-    assert_false(e.has_triangles);
+    assert_true(e.has_kind[RT_KIND_SPHERES]);
+    assert_false(e.has_kind[RT_KIND_TRIANGLES]);
     assert_int_equal(e.cull_sign, 0);
     assert_int_equal(e.exponent_bits, 8);
     assert_false(e.has_fractional_exponent);
@@ -40,8 +40,8 @@ static void culling_needs_triangles(void **state)
     assert_true(e.on[RT_EFFECT_CULL]);
     assert_int_equal(e.called_by[RT_EFFECT_CULL].line, 3);
     assert_int_equal(e.cull_sign, -1);
-    assert_true(e.has_triangles);
-    assert_false(e.has_spheres);
+    assert_true(e.has_kind[RT_KIND_TRIANGLES]);
+    assert_false(e.has_kind[RT_KIND_SPHERES]);
 }
 
 static void vertex_normals_call_for_smoothness(void **state)
