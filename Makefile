@@ -56,8 +56,9 @@ FLAGS := $(BUILD)/flags
 # In the order in which program.c and check-kernels put them together.
 KERNELS := $(addprefix $(SRC)kernels/,effects.def primitives/kinds.h options.h layout.h margins.h \
            $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
-           $(addprefix primitives/,intersect.cl sphere.cl watertight.cl) \
-           $(addprefix traversal/,packet.cl traverse.cl) \
+           primitives/intersect.cl traversal/packet.cl \
+           $(addprefix primitives/,sphere.cl watertight.cl triangle.cl) \
+           traversal/traverse.cl \
            $(addprefix shading/,surface.cl pattern.cl) \
            $(addprefix stages/,camera.cl trace.cl probe.cl path.cl shade.cl queue.cl resolve.cl))
 

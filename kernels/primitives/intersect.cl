@@ -84,51 +84,6 @@ INLINE void keep_in_box(real3 origin, real3 inverse, real tmin, real3 lo, real3 
     m->on = m->on & MASK(enter <= leave) & MASK(m->t > tmin);
 }
 
-#if RT_SPHERES
-INLINE void keep_in_sphere_box(const rays *r, real3 center, real radius, meeting *m)
-{
-    /* In float at every level, as the tree's boxes are. */
-    const floats cx = TO_FLOATS(center.x), cy = TO_FLOATS(center.y), cz = TO_FLOATS(center.z);
-    const floats reach = TO_FLOATS(radius);
-    const real3 lo = {FROM_FLOATS(cx - reach), FROM_FLOATS(cy - reach), FROM_FLOATS(cz - reach)};
-    const real3 hi = {FROM_FLOATS(cx + reach), FROM_FLOATS(cy + reach), FROM_FLOATS(cz + reach)};
-    keep_in_box(r->origin, r->inverse, r->tmin, lo, hi, m);
-}
-#endif
-
-#if RT_SPHERES && RT_ACCURACY < RT_ROBUST
-/* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
- * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
- * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
-INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
-{
-    const real3 f = SUB(real3, r->origin, center);
-    const real b = -DOT(f, r->direction);
-    const real approach = b * r->inv_dd;
-    const real3 l = {fma(approach, r->direction.x, f.x), fma(approach, r->direction.y, f.y),
-                     fma(approach, r->direction.z, f.z)};
-    const real discriminant = fma(radius, radius, -DOT(l, l));
-    m->on = active & MASK(discriminant >= (real)0.0f);
-    if (!ANY(m->on))
-        return 0;
-    /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
-     * their product c / dd. */
-    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
-    const real root = ROOT(r->dd * discriminant);
-    const real q = b + SELECT(-root, root, ahead);
-    const real c = fma(-radius, radius, DOT(f, f));
-    const real sum = DIVIDE(q, r->dd);
-    const real product = DIVIDE(c, q);
-    const real near = SELECT(sum, product, ahead);
-    const real far = SELECT(product, sum, ahead);
-    m->t = SELECT(far, near, MASK(near > r->tmin));
-    m->u = m->v = (real)0.0f;
-    m->det = (real)1.0f;
-    keep_in_sphere_box(r, center, radius, m);
-    return 1;
-}
-#endif
-
 #if RT_TRIANGLES
 #define LESSEST(a, b, c) LESSER(LESSER(a, b), c)
 #define GREATEST(a, b, c) GREATER(GREATER(a, b), c)
@@ -138,38 +93,4 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask act
 #define GREATEST_CORNER(a, b, c)                                                                   \
     ((real3){GREATEST((a).x, (b).x, (c).x), GREATEST((a).y, (b).y, (c).y),                         \
              GREATEST((a).z, (b).z, (c).z)})
-#endif
-
-#if RT_TRIANGLES && !RT_WATERTIGHT
-/* Moller and Trumbore 1997. Barycentric bounds are tested before any division, against the
- * determinant itself: there is no epsilon, so the test is the same at every scale. Returns whether
- * any lane is on. */
-INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask active, meeting *m)
-{
-    const real3 e1 = SUB(real3, b, a);
-    const real3 e2 = SUB(real3, c, a);
-    const real3 p = CROSS(real3, r->direction, e2);
-    const real signed_det = DOT(e1, p);
-    /* Multiplying by the determinant's sign, as one flip of the sign bit. */
-    const mask sign = AS_MASK(signed_det) & (mask)SIGN_BIT;
-    m->det = AS_REAL(AS_MASK(signed_det) ^ sign);
-#if RT_CULL > 0
-    const mask facing = MASK(signed_det > (real)0.0f);
-#elif RT_CULL < 0
-    const mask facing = MASK(signed_det < (real)0.0f);
-#else
-    const mask facing = MASK(m->det > (real)0.0f);
-#endif
-    const real3 s = SUB(real3, r->origin, a);
-    m->u = AS_REAL(AS_MASK(DOT(s, p)) ^ sign);
-    const real3 q = CROSS(real3, s, e1);
-    m->v = AS_REAL(AS_MASK(DOT(r->direction, q)) ^ sign);
-    m->on =
-        facing & MASK(m->u >= (real)0.0f) & MASK(m->v >= (real)0.0f) & MASK(m->u + m->v <= m->det);
-    if (!ANY(m->on))
-        return 0;
-    m->t = DIVIDE(AS_REAL(AS_MASK(DOT(e2, q)) ^ sign), m->det);
-    keep_in_box(r->origin, r->inverse, r->tmin, LEAST_CORNER(a, b, c), GREATEST_CORNER(a, b, c), m);
-    return 1;
-}
 #endif

@@ -29,10 +29,22 @@
 /* Whether it has any. */
 #define RT_OR_THESE(name, names, NAMES) || RT_##NAMES
 #define RT_PRIMITIVES (0 RT_KINDS(RT_OR_THESE))
+/* Code that there is only where the scene has the kind; no commas but in parentheses. */
+#define RT_WHERE(NAMES, code) RT_PASTE(RT_WHERE_, RT_##NAMES)(code)
+#define RT_WHERE_0(code)
+#define RT_WHERE_1(code) code
 #endif
 
 #define RT_KIND_NUMBER(name, names, NAMES) RT_KIND_##NAMES,
 enum rt_kind { RT_KINDS(RT_KIND_NUMBER) RT_KIND_COUNT };
+
+#ifdef __OPENCL_C_VERSION__
+/* A bit for each kind that the scene has. */
+#define RT_BIT_OF_KIND(name, names, NAMES) | RT_##NAMES << RT_KIND_##NAMES
+enum { RT_KINDS_HERE = 0 RT_KINDS(RT_BIT_OF_KIND) };
+/* Whether `kind`, which the scene has, is this one: of the last that it has nothing is asked. */
+#define RT_IS_OF(NAMES, kind) (RT_KINDS_HERE >> RT_KIND_##NAMES == 1 || (kind) == RT_KIND_##NAMES)
+#endif
 
 /* Primitives go to the device in blocks of four of a kind, field by field, so that one ray can be
  * held against a whole block; rays are held against each of its primitives in turn. Slot 4 i + k is

@@ -1,3 +1,48 @@
+/* Spheres: rays against them at each level, one in all lanes or a block in the lanes. */
+#if RT_SPHERES
+
+INLINE void keep_in_sphere_box(const rays *r, real3 center, real radius, meeting *m)
+{
+    /* In float at every level, as the tree's boxes are. */
+    const floats cx = TO_FLOATS(center.x), cy = TO_FLOATS(center.y), cz = TO_FLOATS(center.z);
+    const floats reach = TO_FLOATS(radius);
+    const real3 lo = {FROM_FLOATS(cx - reach), FROM_FLOATS(cy - reach), FROM_FLOATS(cz - reach)};
+    const real3 hi = {FROM_FLOATS(cx + reach), FROM_FLOATS(cy + reach), FROM_FLOATS(cz + reach)};
+    keep_in_box(r->origin, r->inverse, r->tmin, lo, hi, m);
+}
+
+#if RT_ACCURACY < RT_ROBUST
+/* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
+ * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
+ * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
+INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
+{
+    const real3 f = SUB(real3, r->origin, center);
+    const real b = -DOT(f, r->direction);
+    const real approach = b * r->inv_dd;
+    const real3 l = {fma(approach, r->direction.x, f.x), fma(approach, r->direction.y, f.y),
+                     fma(approach, r->direction.z, f.z)};
+    const real discriminant = fma(radius, radius, -DOT(l, l));
+    m->on = active & MASK(discriminant >= (real)0.0f);
+    if (!ANY(m->on))
+        return 0;
+    /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
+     * their product c / dd. */
+    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
+    const real root = ROOT(r->dd * discriminant);
+    const real q = b + SELECT(-root, root, ahead);
+    const real c = fma(-radius, radius, DOT(f, f));
+    const real sum = DIVIDE(q, r->dd);
+    const real product = DIVIDE(c, q);
+    const real near = SELECT(sum, product, ahead);
+    const real far = SELECT(product, sum, ahead);
+    m->t = SELECT(far, near, MASK(near > r->tmin));
+    m->u = m->v = (real)0.0f;
+    m->det = (real)1.0f;
+    keep_in_sphere_box(r, center, radius, m);
+    return 1;
+}
+#else
 /* The sphere test of the levels robust and double: hit or miss as exact arithmetic decides it, but
  * for rays within 8 ulp of touching, whether the sphere is small and far or large and near.
  *
@@ -6,7 +51,6 @@
  * (Kahan); dot products that cancel near a large sphere's surface are compensated (Ogita, Rump and
  * Oishi 2005). All is + - * and fma in one precision: the bits are the same on devices with and
  * without fp64. */
-#if RT_SPHERES && RT_ACCURACY >= RT_ROBUST
 
 /* sum + error = a + b exactly. */
 #define TWO_SUM(sum, error, a, b)                                                                  \
@@ -70,4 +114,35 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask act
     keep_in_sphere_box(r, center, radius, m);
     return 1;
 }
+#endif
+
+/* Offers a block to the groups whose bits are set. */
+INLINE int offer_spheres(packet *p, int groups, const world *w, int block, const int any)
+{
+    __global const rt_sphere_block *s = w->spheres + block;
+    __global const int *order = order_of(w, RT_KIND_SPHERES, block);
+    int changed = 0;
+    for (int k = 0; k < RT_BLOCK_PRIMITIVES && order[k] >= 0; ++k) {
+        const real3 center = SPLAT3(s->cx[k], s->cy[k], s->cz[k]);
+        for (int g = 0; g < RT_GROUPS; ++g) {
+            meeting m;
+            if ((groups >> g & 1) &&
+                meet_spheres(&p->r[g], center, (real)s->radius[k], (mask)-1, &m))
+                changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
+        }
+    }
+    return changed;
+}
+
+#if RT_ONE_BY_ONE
+INLINE void meet_block_of_spheres(const rays *r, hit *h, const world *w, int block, const int any)
+{
+    meeting m;
+    __global const rt_sphere_block *s = w->spheres + block;
+    const real3 center = {BLOCK_LOAD(s->cx), BLOCK_LOAD(s->cy), BLOCK_LOAD(s->cz)};
+    if (meet_spheres(r, center, BLOCK_LOAD(s->radius), BLOCK_LANES, &m))
+        take_best(h, &m, BLOCK_LOAD_INDEX(order_of(w, RT_KIND_SPHERES, block)), block, any);
+}
+#endif
+
 #endif

@@ -6,7 +6,8 @@
  * (Kahan; Jeannerod, Louvet and Muller 2013), so neighbours agree about their common edge. A ray
  * that runs exactly through an edge or a corner is thought of as moved by (e, e * e), e > 0
  * vanishing: it is then in exactly one of the triangles around. Only leaving the range of normal
- * numbers spoils this, and scenes are brought to where that does not happen (src/scene/scene.h, unit). */
+ * numbers spoils this, and scenes are brought to where that does not happen (src/scene/scene.h,
+ * unit). */
 #if RT_WATERTIGHT
 
 #define PERMUTED(v, is_x, is_y)                                                                    \

@@ -69,13 +69,10 @@ INLINE void load_packet(__global const number *source, size_t step, packet *p)
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_trace(const int stride, __global const number *rays, __global const rt_node *nodes,
-         __global const int *order, __global const rt_sphere_block *spheres,
-         const int sphere_blocks, __global const rt_triangle_block *triangles,
-         const int triangle_blocks, __global int *hit_index, __global int *hit_slot,
-         __global number *hit_array)
+rt_trace(const int stride, __global const number *rays, WORLD_PARAMETERS, __global int *hit_index,
+         __global int *hit_slot, __global number *hit_array)
 {
-    const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
+    const world w = WORLD;
     const size_t step = (size_t)stride;
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;
@@ -89,12 +86,9 @@ rt_trace(const int stride, __global const number *rays, __global const rt_node *
 /* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
  * differ from device to device; whether there is one does not. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
-rt_occlude(const int stride, __global const number *probes, __global const rt_node *nodes,
-           __global const int *order, __global const rt_sphere_block *spheres,
-           const int sphere_blocks, __global const rt_triangle_block *triangles,
-           const int triangle_blocks, __global int *blocked)
+rt_occlude(const int stride, __global const number *probes, WORLD_PARAMETERS, __global int *blocked)
 {
-    const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
+    const world w = WORLD;
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;
     load_packet(probes + first, (size_t)stride, &p);

@@ -3,18 +3,38 @@
  * order in which primitives are offered. */
 
 #define RT_GROUPS (RT_PACKET / RT_LANES)
-
-/* From a corner's component in a block of triangles to the next corner's. */
-#define CORNER (3 * RT_BLOCK_PRIMITIVES)
+/* Whether rays that go apart walk one by one. */
+#define RT_ONE_BY_ONE (RT_TREE && RT_LANES > 1 && RT_PRIMITIVES)
 
 /* What a walk works on. */
 typedef struct world {
     __global const rt_node *nodes;
-    __global const int *order; /* the primitive of each slot: spheres' slots, then triangles' */
-    __global const rt_sphere_block *spheres;
-    __global const rt_triangle_block *triangles;
-    int sphere_blocks, triangle_blocks;
+    __global const int *order; /* the primitive of each slot, kind after kind */
+#define WORLD_FIELD(name, names, NAMES)                                                            \
+    __global const rt_##name##_block *names;                                                       \
+    int name##_blocks;
+    RT_KINDS(WORLD_FIELD)
 } world;
+
+/* The same as parameters of a kernel, and made from them. */
+#define KIND_PARAMETERS(name, names, NAMES)                                                        \
+    , __global const rt_##name##_block *names, const int name##_blocks
+#define WORLD_PARAMETERS                                                                           \
+    __global const rt_node *nodes, __global const int *order RT_KINDS(KIND_PARAMETERS)
+#define KIND_ARGUMENTS(name, names, NAMES) , names, name##_blocks
+#define WORLD                                                                                      \
+    {                                                                                              \
+        nodes, order RT_KINDS(KIND_ARGUMENTS)                                                      \
+    }
+
+/* The primitives of a block's places. */
+INLINE __global const int *order_of(const world *w, const int kind, int block)
+{
+    int before = 0;
+#define ADD_BLOCKS(name, names, NAMES) before += RT_KIND_##NAMES < kind ? w->name##_blocks : 0;
+    RT_KINDS(ADD_BLOCKS)
+    return w->order + (before + block) * RT_BLOCK_PRIMITIVES;
+}
 
 typedef struct hits {
     mask index; /* RT_MISS where nothing is hit yet */
@@ -54,101 +74,52 @@ INLINE int take(hits *h, const meeting *m, int index, int slot, const int any)
     return ANY(on);
 }
 
-#if RT_SPHERES
-/* Offers a block to the groups whose bits are set. */
-INLINE int offer_spheres(packet *p, int groups, const world *w, int block, const int any)
-{
-    __global const rt_sphere_block *s = w->spheres + block;
-    __global const int *order = w->order + block * RT_BLOCK_PRIMITIVES;
-    int changed = 0;
-    for (int k = 0; k < RT_BLOCK_PRIMITIVES && order[k] >= 0; ++k) {
-        const real3 center = SPLAT3(s->cx[k], s->cy[k], s->cz[k]);
-        for (int g = 0; g < RT_GROUPS; ++g) {
-            meeting m;
-            if ((groups >> g & 1) &&
-                meet_spheres(&p->r[g], center, (real)s->radius[k], (mask)-1, &m))
-                changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
-        }
-    }
-    return changed;
-}
-#endif
+#if RT_ONE_BY_ONE
+/* ---- One ray and a block, whose primitives are in the lanes ---- */
 
-#if RT_TRIANGLES
-#if RT_WATERTIGHT
-#define MIXED_AXES 3
-/* Where a block has the components of its corners in the order for an axis: free where all rays
- * agree, which is nearly always. */
-#define FIRST_OF(axis) ((axis) == 0 ? 1 : (axis) == 1 ? 2 : 0)
-#define SECOND_OF(axis) ((axis) == 0 ? 2 : (axis) == 1 ? 0 : 1)
-#define THIRD_OF(axis) ((axis) == MIXED_AXES ? 2 : (axis))
-
-INLINE int common_axis(const packet *p)
-{
-    mask x = (mask)0, y = (mask)0, z = (mask)0;
-    for (int g = 0; g < RT_GROUPS; ++g) {
-        const mask on = alive(&p->r[g], &p->h[g]);
-        x = x | (on & MASK(p->r[g].axis == (mask)0));
-        y = y | (on & MASK(p->r[g].axis == (mask)1));
-        z = z | (on & MASK(p->r[g].axis == (mask)2));
-    }
-    const int any_x = ANY(x), any_y = ANY(y), any_z = ANY(z);
-    return any_x + any_y + any_z > 1 ? MIXED_AXES : any_x ? 0 : any_y ? 1 : 2;
-}
-#endif
-
-INLINE int offer_triangles(packet *p, int groups, const world *w, int block, const int any)
-{
-    __global const rt_triangle_block *s = w->triangles + block;
-    __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
-    int changed = 0;
-#if RT_WATERTIGHT
-    __global const float *first =
-        (__global const float *)s + FIRST_OF(p->axis) * RT_BLOCK_PRIMITIVES;
-    __global const float *second =
-        (__global const float *)s + SECOND_OF(p->axis) * RT_BLOCK_PRIMITIVES;
-    __global const float *third =
-        (__global const float *)s + THIRD_OF(p->axis) * RT_BLOCK_PRIMITIVES;
+/* The lanes that a block fills. What a whole vector loads beyond the block is not looked at; arrays
+ * end with enough to load. */
+typedef RT_PASTE(RT_BITS, 4) mask4;
+typedef RT_PASTE(RT_BITS, 8) mask8;
+#if RT_LANES == 4
+#define BLOCK_LANES ((mask4)-1)
+#elif RT_LANES == 8
+#define BLOCK_LANES ((mask8)((mask4)-1, (mask4)0))
 #else
-    __global const float *first = s->ax, *second = s->ay, *third = s->az;
+#define BLOCK_LANES ((mask16)((mask4)-1, (mask4)0, (mask8)0))
 #endif
-    for (int k = 0; k < RT_BLOCK_PRIMITIVES && order[k] >= 0; ++k) {
-        const real3 a = SPLAT3(first[k], second[k], third[k]);
-        const real3 b = SPLAT3(first[CORNER + k], second[CORNER + k], third[CORNER + k]);
-        const real3 c =
-            SPLAT3(first[2 * CORNER + k], second[2 * CORNER + k], third[2 * CORNER + k]);
-        for (int g = 0; g < RT_GROUPS; ++g) {
-            meeting m;
-            if (!(groups >> g & 1))
-                continue;
-#if RT_WATERTIGHT && RT_PACKET > 1
-            if (p->axis == MIXED_AXES) {
-                real3 pa = a, pb = b, pc = c;
-                permute_by_lane(&p->r[g], &pa, &pb, &pc);
-                if (meet_triangles(&p->r[g], pa, pb, pc, (mask)-1, &m))
-                    changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
-                continue;
-            }
-#endif
-            if (meet_triangles(&p->r[g], a, b, c, (mask)-1, &m))
-                changed |= take(&p->h[g], &m, order[k], block * RT_BLOCK_PRIMITIVES + k, any);
-        }
-    }
-    return changed;
-}
-#endif
+#define BLOCK_LOAD(p)                                                                              \
+    RT_PASTE(RT_PASTE(convert_, RT_NUMBER), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
+#define BLOCK_LOAD_INDEX(p)                                                                        \
+    RT_PASTE(RT_PASTE(convert_, RT_BITS), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
 
-INLINE int offer_block(packet *p, int groups, const world *w, int kind, int block,
-                       const int any)
+/* Lane k of a vector in memory. */
+#define LANE(v, k) (((number *)&(v))[k])
+#define LANE_OF_MASK(v, k) (((RT_BITS *)&(v))[k])
+
+/* What a ray has hit so far. */
+typedef struct hit {
+    number t, u, v, det;
+    int index, slot;
+} hit;
+
+/* Takes the best of a block's meetings with one ray, by the rule of take(). */
+INLINE void take_best(hit *h, meeting *m, mask index, int block, const int any)
 {
-#if RT_SPHERES && RT_TRIANGLES
-    return kind == RT_KIND_SPHERES ? offer_spheres(p, groups, w, block, any)
-                     : offer_triangles(p, groups, w, block, any);
-#elif RT_SPHERES
-    return offer_spheres(p, groups, w, block, any);
-#elif RT_TRIANGLES
-    return offer_triangles(p, groups, w, block, any);
-#else
-    return 0;
-#endif
+    m->on = m->on & MASK(index >= (mask)0) & MASK(m->t <= (real)h->t);
+    if (!ANY(m->on))
+        return;
+    for (int k = 0; k < RT_BLOCK_PRIMITIVES; ++k) {
+        const number t = LANE(m->t, k);
+        const int i = (int)LANE_OF_MASK(index, k);
+        if (!LANE_OF_MASK(m->on, k) || !(t < h->t || (t == h->t && i < h->index)))
+            continue;
+        h->t = any ? -INFINITY : t;
+        h->index = i;
+        h->slot = block * RT_BLOCK_PRIMITIVES + k;
+        h->u = LANE(m->u, k);
+        h->v = LANE(m->v, k);
+        h->det = LANE(m->det, k);
+    }
 }
+#endif

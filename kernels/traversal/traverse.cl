@@ -1,6 +1,6 @@
 /* From rays to their hits over all primitives. With or without a tree, together or one by one, the
- * result is the same to the bit (kernels/primitives/intersect.cl says why), so that this is the only file that
- * knows of trees.
+ * result is the same to the bit (kernels/primitives/intersect.cl says why), so that this is the
+ * only file that knows of trees.
  *
  * Rays that go together walk as a packet. At a node the lanes are its children: one interval test
  * holds all 16 boxes against what all rays of the packet have in common, the least and the greatest
@@ -11,16 +11,21 @@
 #if !RT_TREE
 INLINE void walk(packet *p, const world *w, const int any)
 {
-#if RT_SPHERES
-    for (int block = 0; block < w->sphere_blocks; ++block)
-        offer_spheres(p, -1, w, block, any);
-#endif
-#if RT_TRIANGLES
-    for (int block = 0; block < w->triangle_blocks; ++block)
-        offer_triangles(p, -1, w, block, any);
-#endif
+#define OFFER_ALL(name, names, NAMES)                                                              \
+    RT_WHERE(NAMES, for (int block = 0; block < w->name##_blocks; ++block)                         \
+                        offer_##names(p, -1, w, block, any);)
+    RT_KINDS(OFFER_ALL)
 }
 #else
+
+/* Offers a leaf's block to the groups whose bits are set. Returns whether one took something. */
+INLINE int offer_block(packet *p, int groups, const world *w, int kind, int block, const int any)
+{
+#define OFFER(name, names, NAMES)                                                                  \
+    RT_WHERE(NAMES, if (RT_IS_OF(NAMES, kind)) return offer_##names(p, groups, w, block, any);)
+    RT_KINDS(OFFER)
+    return 0;
+}
 
 /* What the rays of a packet have in common along one axis. The axis is mirrored where the rays go
  * down it, so that they all go up. */
@@ -199,92 +204,19 @@ INLINE void walk_packet(packet *p, bundle *b, const world *w, const int any)
     }
 }
 
-#if RT_LANES > 1 && (RT_SPHERES || RT_TRIANGLES)
+#if RT_ONE_BY_ONE
 /* ---- One ray at a time ---- */
 
-/* The lanes that a block fills. What a whole vector loads beyond the block is not looked at; arrays
- * end with enough to load. */
-typedef RT_PASTE(RT_BITS, 4) mask4;
-typedef RT_PASTE(RT_BITS, 8) mask8;
-#if RT_LANES == 4
-#define BLOCK_LANES ((mask4)-1)
-#elif RT_LANES == 8
-#define BLOCK_LANES ((mask8)((mask4)-1, (mask4)0))
-#else
-#define BLOCK_LANES ((mask16)((mask4)-1, (mask4)0, (mask8)0))
-#endif
-#define BLOCK_LOAD(p)                                                                              \
-    RT_PASTE(RT_PASTE(convert_, RT_NUMBER), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
-#define BLOCK_LOAD_INDEX(p)                                                                        \
-    RT_PASTE(RT_PASTE(convert_, RT_BITS), RT_LANES)(RT_PASTE(vload, RT_LANES)(0, p))
-
-/* Lane k of a vector in memory. */
-#define LANE(v, k) (((number *)&(v))[k])
-#define LANE_OF_MASK(v, k) (((RT_BITS *)&(v))[k])
-
-/* What a ray has hit so far. */
-typedef struct hit {
-    number t, u, v, det;
-    int index, slot;
-} hit;
-
-/* Takes the best of a block's meetings with one ray, by the rule of take(). */
-INLINE void take_best(hit *h, meeting *m, mask index, int block, const int any)
+/* Holds one ray, in all lanes of `r`, against a leaf's block. */
+INLINE void meet_block(const rays *r, hit *h, const world *w, int kind, int block, const int any)
 {
-    m->on = m->on & MASK(index >= (mask)0) & MASK(m->t <= (real)h->t);
-    if (!ANY(m->on))
-        return;
-    for (int k = 0; k < RT_BLOCK_PRIMITIVES; ++k) {
-        const number t = LANE(m->t, k);
-        const int i = (int)LANE_OF_MASK(index, k);
-        if (!LANE_OF_MASK(m->on, k) || !(t < h->t || (t == h->t && i < h->index)))
-            continue;
-        h->t = any ? -INFINITY : t;
-        h->index = i;
-        h->slot = block * RT_BLOCK_PRIMITIVES + k;
-        h->u = LANE(m->u, k);
-        h->v = LANE(m->v, k);
-        h->det = LANE(m->det, k);
-    }
-}
-
-/* Holds one ray, in all lanes of `r`, against a block. */
-INLINE void meet_block(const rays *r, hit *h, const world *w, int kind, int block,
-                       const int any)
-{
-    meeting m;
-#if RT_SPHERES
-#if RT_TRIANGLES
-    if (kind == RT_KIND_SPHERES)
-#endif
-    {
-        __global const rt_sphere_block *s = w->spheres + block;
-        const real3 center = {BLOCK_LOAD(s->cx), BLOCK_LOAD(s->cy), BLOCK_LOAD(s->cz)};
-        if (meet_spheres(r, center, BLOCK_LOAD(s->radius), BLOCK_LANES, &m))
-            take_best(h, &m, BLOCK_LOAD_INDEX(w->order + block * RT_BLOCK_PRIMITIVES), block, any);
-        return;
-    }
-#endif
-#if RT_TRIANGLES
-    __global const rt_triangle_block *t = w->triangles + block;
-#if RT_WATERTIGHT
-    const int axis = (int)LANE_OF_MASK(r->axis, 0);
-    __global const float *first = (__global const float *)t + FIRST_OF(axis) * RT_BLOCK_PRIMITIVES;
-    __global const float *second =
-        (__global const float *)t + SECOND_OF(axis) * RT_BLOCK_PRIMITIVES;
-    __global const float *third = (__global const float *)t + THIRD_OF(axis) * RT_BLOCK_PRIMITIVES;
-#else
-    __global const float *first = t->ax, *second = t->ay, *third = t->az;
-#endif
-    const real3 a = {BLOCK_LOAD(first), BLOCK_LOAD(second), BLOCK_LOAD(third)};
-    const real3 b = {BLOCK_LOAD(first + CORNER), BLOCK_LOAD(second + CORNER),
-                     BLOCK_LOAD(third + CORNER)};
-    const real3 c = {BLOCK_LOAD(first + 2 * CORNER), BLOCK_LOAD(second + 2 * CORNER),
-                     BLOCK_LOAD(third + 2 * CORNER)};
-    __global const int *order = w->order + (w->sphere_blocks + block) * RT_BLOCK_PRIMITIVES;
-    if (meet_triangles(r, a, b, c, BLOCK_LANES, &m))
-        take_best(h, &m, BLOCK_LOAD_INDEX(order), block, any);
-#endif
+#define MEET(name, names, NAMES)                                                                   \
+    RT_WHERE(                                                                                      \
+        NAMES, if (RT_IS_OF(NAMES, kind)) {                                                        \
+            meet_block_of_##names(r, h, w, block, any);                                            \
+            return;                                                                                \
+        })
+    RT_KINDS(MEET)
 }
 
 /* Narrows [enter, leave] of 16 boxes by one axis of one ray, as box_interval does. */
@@ -397,7 +329,7 @@ INLINE void walk(packet *p, const world *w, const int any)
 {
     bundle b;
     bundle_up(p, &b);
-#if RT_LANES > 1 && (RT_SPHERES || RT_TRIANGLES)
+#if RT_ONE_BY_ONE
     if (b.x.mixed + b.y.mixed + b.z.mixed > 1) {
         walk_rays(p, w, any);
         return;

@@ -121,14 +121,12 @@ INLINE void paint(block *all, const rt_frame *frame, const world *w, const paint
 }
 
 __kernel __attribute__((reqd_work_group_size(1, 1, 1))) void
-fused(const rt_tile tile, const rt_frame frame, __global const rt_node *nodes,
-      __global const int *order, __global const rt_sphere_block *spheres, const int sphere_blocks,
-      __global const rt_triangle_block *triangles, const int triangle_blocks,
+fused(const rt_tile tile, const rt_frame frame, WORLD_PARAMETERS,
       const int sphere_count, __global const int *material_of,
       __global const rt_material *materials, __global const rt_light *lights,
       const rt_surround around, __global float *picture)
 {
-    const world w = {nodes, order, spheres, triangles, sphere_blocks, triangle_blocks};
+    const world w = WORLD;
     const painting with = {around, material_of, materials, lights, sphere_count};
     const int across = tile.width / RT_BLOCK_SIDE, at = (int)get_global_id(0);
     const int left = at % across * RT_BLOCK_SIDE, top = at / across * RT_BLOCK_SIDE;
