@@ -5,8 +5,13 @@
 #define RT_KINDS_H
 
 /* kind(name, names, NAMES) for each, in the order of primitive indices: those of the first kind
- * come first, in file order, then those of the next. */
-#define RT_KINDS(kind) kind(sphere, spheres, SPHERES) kind(triangle, triangles, TRIANGLES)
+ * come first, in file order, then those of the next. One row a line, which
+ * src/opencl/kernel_text.awk reads too. */
+/* clang-format off */
+#define RT_KINDS(kind) \
+    kind(sphere, spheres, SPHERES) \
+    kind(triangle, triangles, TRIANGLES)
+/* clang-format on */
 
 /* What a primitive of each kind is made of: floats, all of them coordinates or lengths, so that
  * they change together with the scene's unit of length. */
@@ -42,8 +47,10 @@ enum rt_kind { RT_KINDS(RT_KIND_NUMBER) RT_KIND_COUNT };
 /* A bit for each kind that the scene has. */
 #define RT_BIT_OF_KIND(name, names, NAMES) | RT_##NAMES << RT_KIND_##NAMES
 enum { RT_KINDS_HERE = 0 RT_KINDS(RT_BIT_OF_KIND) };
-/* Whether `kind`, which the scene has, is this one: of the last that it has nothing is asked. */
-#define RT_IS_OF(NAMES, kind) (RT_KINDS_HERE >> RT_KIND_##NAMES == 1 || (kind) == RT_KIND_##NAMES)
+/* Whether it is the last that it has: of that one nothing needs asking. */
+#define RT_IS_LAST(NAMES) (RT_KINDS_HERE >> RT_KIND_##NAMES == 1)
+/* Whether `kind`, which the scene has, is this one. */
+#define RT_IS_OF(NAMES, kind) (RT_IS_LAST(NAMES) || (kind) == RT_KIND_##NAMES)
 #endif
 
 /* Primitives go to the device in blocks of four of a kind, field by field, so that one ray can be

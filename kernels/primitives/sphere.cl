@@ -144,5 +144,45 @@ INLINE void meet_block_of_spheres(const rays *r, hit *h, const world *w, int blo
         take_best(h, &m, BLOCK_LOAD_INDEX(order_of(w, RT_KIND_SPHERES, block)), block, any);
 }
 #endif
-
 #endif
+
+/* ---- Its surface ---- */
+
+INLINE void sphere_surface(const traced *w, int index, __global const rt_sphere_block *block, int k,
+                           number u, number v, vec3 origin, vec3 direction, surface *s)
+{
+    const vec3 center = {block->cx[k], block->cy[k], block->cz[k]};
+    const number radius = block->radius[k];
+    vec3 normal = SUB(vec3, s->point, center);
+    make_unit(&normal);
+    const number side = side_toward(normal, direction);
+    s->start = (vec3){fma(radius, normal.x, center.x), fma(radius, normal.y, center.y),
+                      fma(radius, normal.z, center.z)};
+    s->lift =
+        (number)RT_START_BOUND * EXTENT_ALONG(normal, fma(radius, fabs(normal.x), fabs(center.x)),
+                                              fma(radius, fabs(normal.y), fabs(center.y)),
+                                              fma(radius, fabs(normal.z), fabs(center.z)));
+    if (RT_ACCURACY >= RT_ROBUST) {
+        const number lift =
+            (number)RT_POINT_BOUND * EXTENT_ALONG(normal, fabs(origin.x) + fabs(s->point.x),
+                                                  fabs(origin.y) + fabs(s->point.y),
+                                                  fabs(origin.z) + fabs(s->point.z));
+        const int is_better = lift < s->lift;
+        s->start = (vec3){is_better ? s->point.x : s->start.x, is_better ? s->point.y : s->start.y,
+                          is_better ? s->point.z : s->start.z};
+        s->lift = is_better ? lift : s->lift;
+    }
+    s->facing = SCALE(normal, side);
+    s->normal = SCALE(normal, side); /* no copy: a struct in memory ends vectorising */
+    s->outside = side > 0.0f;
+}
+
+/* By longitude and latitude about the y axis. */
+INLINE void sphere_picture_point(const pictures *p, int index, number u, number v, const surface *s,
+                                 number *x, number *y)
+{
+    const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
+    const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);
+    *x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
+    *y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
+}

@@ -125,5 +125,69 @@ INLINE void meet_block_of_triangles(const rays *r, hit *h, const world *w, int b
         take_best(h, &m, BLOCK_LOAD_INDEX(order), block, any);
 }
 #endif
-
 #endif
+
+/* ---- Its surface ---- */
+
+/* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
+ * the same side; leaves it where the vertex normals cancel. */
+INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *normal)
+{
+    const number w = 1.0f - u - v;
+    const vec3 na = {n[0], n[1], n[2]};
+    const vec3 nb = {n[3], n[4], n[5]};
+    const vec3 nc = {n[6], n[7], n[8]};
+    vec3 unit = {fma(v, nc.x, fma(u, nb.x, w * na.x)), fma(v, nc.y, fma(u, nb.y, w * na.y)),
+                 fma(v, nc.z, fma(u, nb.z, w * na.z))};
+    const int has_direction = make_unit_if_any(&unit);
+    const number side = DOT(unit, *normal);
+    if (has_direction)
+        *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
+}
+
+/* The normals are made from the edges as they are and made unit last: made unit before the
+ * barycentric test they would shrink the triangle, left as they are they would turn highlights
+ * white. */
+INLINE void triangle_surface(const traced *w, int index, __global const rt_triangle_block *t, int k,
+                             number u, number v, vec3 origin, vec3 direction, surface *s)
+{
+    const vec3 a = {t->ax[k], t->ay[k], t->az[k]};
+    const vec3 b = {t->bx[k], t->by[k], t->bz[k]};
+    const vec3 c = {t->cx[k], t->cy[k], t->cz[k]};
+    const vec3 e1 = SUB(vec3, b, a);
+    const vec3 e2 = SUB(vec3, c, a);
+    /* Each edge by a power of two of its own, or the product of long ones would overflow. */
+    const vec3 f1 = SCALE(e1, moderating_factor(e1));
+    const vec3 f2 = SCALE(e2, moderating_factor(e2));
+    vec3 normal = CROSS(vec3, f1, f2);
+    make_unit(&normal);
+    const number side = side_toward(normal, direction);
+
+    const number third = 1.0f / 3.0f;
+    const number pu = fma((number)RT_START_DRAW, third - u, u);
+    const number pv = fma((number)RT_START_DRAW, third - v, v);
+    const number pw = 1.0f - pu - pv;
+    s->start = (vec3){fma(pv, c.x, fma(pu, b.x, pw * a.x)), fma(pv, c.y, fma(pu, b.y, pw * a.y)),
+                      fma(pv, c.z, fma(pu, b.z, pw * a.z))};
+    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, SUM_OF_SIZES(a.x, b.x, c.x),
+                                                    SUM_OF_SIZES(a.y, b.y, c.y),
+                                                    SUM_OF_SIZES(a.z, b.z, c.z));
+    s->facing = SCALE(normal, side);
+    s->normal = SCALE(normal, side);
+    s->outside = side > 0.0f;
+    const int record = RT_SMOOTH ? w->normals_of[index] : -1;
+    if (record >= 0)
+        smooth_normal(w->normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s->normal);
+}
+
+INLINE void triangle_picture_point(const pictures *p, int index, number u, number v,
+                                   const surface *s, number *x, number *y)
+{
+    const int record = p->uvs_of[index];
+    if (record < 0)
+        return;
+    __global const float *uv = p->uvs + (size_t)record * RT_UV_COMPONENTS;
+    const number rest = (number)1.0f - u - v;
+    *x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
+    *y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
+}

@@ -32,27 +32,26 @@ INLINE void texel_at(const pictures *p, const rt_texture t, int x, int y, vec3 *
     color->z = (number)(int)(texel >> 16 & 255) * step;
 }
 
-/* Where on a picture a hit is: spheres by longitude and latitude about the y axis. */
+/* In the file of each kind: where on a picture a surface is, of which surface.cl tells the rest. */
+#define DECLARE_PICTURE_POINT(name, names, NAMES)                                                  \
+    INLINE void name##_picture_point(const pictures *p, int index, number u, number v,             \
+                                     const surface *s, number *x, number *y);
+RT_KINDS(DECLARE_PICTURE_POINT)
+
+/* Where on a picture a hit is. */
 INLINE void picture_point(const pictures *p, const traced *w, size_t i, int index, const surface *s,
                           number *x, number *y)
 {
-    *x = *y = 0.0f;
-    if (RT_SPHERES && index < w->sphere_count) {
-        const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
-        const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);
-        *x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
-        *y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
-        return;
-    }
-    const int record = RT_TRIANGLES ? p->uvs_of[index - w->sphere_count] : -1;
-    if (record < 0)
-        return;
-    __global const float *uv = p->uvs + (size_t)record * RT_UV_COMPONENTS;
     const number u = w->hit_array[RT_HIT_U * w->step + i];
     const number v = w->hit_array[RT_HIT_V * w->step + i];
-    const number rest = (number)1.0f - u - v;
-    *x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
-    *y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
+    *x = *y = 0.0f;
+#define PICTURE_POINT(name, names, NAMES)                                                          \
+    if (RT_IS_LAST(NAMES) || (RT_##NAMES && index < w->name##_count)) {                            \
+        name##_picture_point(p, index, u, v, s, x, y);                                             \
+        return;                                                                                    \
+    }                                                                                              \
+    index -= RT_##NAMES ? w->name##_count : 0;
+    RT_KINDS(PICTURE_POINT)
 }
 
 /* A picture's colour at (x, y), once round the picture from 0 to 1. */

@@ -45,95 +45,18 @@ INLINE number side_toward(vec3 normal, vec3 direction)
  * making vectors across rays. */
 #define SUM_OF_SIZES(a, b, c) (fabs(a) + ((b) < (number)0.0f ? -(b) : (b)) + fabs(c))
 
-INLINE void sphere_surface(__global const rt_sphere_block *block, int k, vec3 origin,
-                           vec3 direction, surface *s)
-{
-    const vec3 center = {block->cx[k], block->cy[k], block->cz[k]};
-    const number radius = block->radius[k];
-    vec3 normal = SUB(vec3, s->point, center);
-    make_unit(&normal);
-    const number side = side_toward(normal, direction);
-    s->start = (vec3){fma(radius, normal.x, center.x), fma(radius, normal.y, center.y),
-                      fma(radius, normal.z, center.z)};
-    s->lift =
-        (number)RT_START_BOUND * EXTENT_ALONG(normal, fma(radius, fabs(normal.x), fabs(center.x)),
-                                              fma(radius, fabs(normal.y), fabs(center.y)),
-                                              fma(radius, fabs(normal.z), fabs(center.z)));
-    if (RT_ACCURACY >= RT_ROBUST) {
-        const number lift =
-            (number)RT_POINT_BOUND * EXTENT_ALONG(normal, fabs(origin.x) + fabs(s->point.x),
-                                                  fabs(origin.y) + fabs(s->point.y),
-                                                  fabs(origin.z) + fabs(s->point.z));
-        const int is_better = lift < s->lift;
-        s->start = (vec3){is_better ? s->point.x : s->start.x, is_better ? s->point.y : s->start.y,
-                          is_better ? s->point.z : s->start.z};
-        s->lift = is_better ? lift : s->lift;
-    }
-    s->facing = SCALE(normal, side);
-    s->normal = SCALE(normal, side); /* no copy: a struct in memory ends vectorising */
-    s->outside = side > 0.0f;
-}
-
-/* The normals are made from the edges as they are and made unit last: made unit before the
- * barycentric test they would shrink the triangle, left as they are they would turn highlights
- * white. */
-INLINE void triangle_surface(__global const rt_triangle_block *t, int k, number u, number v,
-                             vec3 direction, surface *s)
-{
-    const vec3 a = {t->ax[k], t->ay[k], t->az[k]};
-    const vec3 b = {t->bx[k], t->by[k], t->bz[k]};
-    const vec3 c = {t->cx[k], t->cy[k], t->cz[k]};
-    const vec3 e1 = SUB(vec3, b, a);
-    const vec3 e2 = SUB(vec3, c, a);
-    /* Each edge by a power of two of its own, or the product of long ones would overflow. */
-    const vec3 f1 = SCALE(e1, moderating_factor(e1));
-    const vec3 f2 = SCALE(e2, moderating_factor(e2));
-    vec3 normal = CROSS(vec3, f1, f2);
-    make_unit(&normal);
-    const number side = side_toward(normal, direction);
-
-    const number third = 1.0f / 3.0f;
-    const number pu = fma((number)RT_START_DRAW, third - u, u);
-    const number pv = fma((number)RT_START_DRAW, third - v, v);
-    const number pw = 1.0f - pu - pv;
-    s->start = (vec3){fma(pv, c.x, fma(pu, b.x, pw * a.x)), fma(pv, c.y, fma(pu, b.y, pw * a.y)),
-                      fma(pv, c.z, fma(pu, b.z, pw * a.z))};
-    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, SUM_OF_SIZES(a.x, b.x, c.x),
-                                                    SUM_OF_SIZES(a.y, b.y, c.y),
-                                                    SUM_OF_SIZES(a.z, b.z, c.z));
-    s->facing = SCALE(normal, side);
-    s->normal = SCALE(normal, side);
-    s->outside = side > 0.0f;
-}
-
-/* Replaces `normal`, the geometric one turned toward the ray, by the interpolated vertex normal on
- * the same side; leaves it where the vertex normals cancel. */
-INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *normal)
-{
-    const number w = 1.0f - u - v;
-    const vec3 na = {n[0], n[1], n[2]};
-    const vec3 nb = {n[3], n[4], n[5]};
-    const vec3 nc = {n[6], n[7], n[8]};
-    vec3 unit = {fma(v, nc.x, fma(u, nb.x, w * na.x)), fma(v, nc.y, fma(u, nb.y, w * na.y)),
-                 fma(v, nc.z, fma(u, nb.z, w * na.z))};
-    const int has_direction = make_unit_if_any(&unit);
-    const number side = DOT(unit, *normal);
-    if (has_direction)
-        *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
-}
-
 /* What the trace stage leaves behind, and the primitives that it speaks of: parameters of the
  * kernels that look at hits, and those in one. The normals are there where some are smooth. */
+#define TRACED_KIND(name, names, NAMES)                                                            \
+    , __global const rt_##name##_block *names, const int name##_count
 #define TRACED_PARAMETERS                                                                          \
     const int stride, __global const number *rays, __global const int *hit_index,                  \
-        __global const int *hit_slot, __global const number *hit_array,                            \
-        __global const rt_sphere_block *spheres, const int sphere_count,                           \
-        __global const rt_triangle_block *triangles, const int triangle_count,              \
-        __global const int *normals_of,                                                            \
-        __global const float *normals
+        __global const int *hit_slot, __global const number *hit_array RT_KINDS(TRACED_KIND),      \
+        __global const int *normals_of, __global const float *normals
+#define TRACED_KIND_ARGUMENTS(name, names, NAMES) , names, name##_count
 #define TRACED                                                                                     \
     {                                                                                              \
-        (size_t) stride, rays, hit_index, hit_slot, hit_array, spheres, sphere_count, triangles,   \
+        (size_t) stride, rays, hit_index, hit_slot, hit_array RT_KINDS(TRACED_KIND_ARGUMENTS),     \
             normals_of, normals                                                                    \
     }
 typedef struct traced {
@@ -141,12 +64,21 @@ typedef struct traced {
     __global const number *rays;
     __global const int *hit_index, *hit_slot;
     __global const number *hit_array;
-    __global const rt_sphere_block *spheres;
-    int sphere_count;
-    __global const rt_triangle_block *triangles;
+#define TRACED_FIELDS(name, names, NAMES)                                                          \
+    __global const rt_##name##_block *names;                                                       \
+    int name##_count;
+    RT_KINDS(TRACED_FIELDS)
     __global const int *normals_of;
     __global const float *normals;
 } traced;
+
+/* In the file of each kind: the rest of the surface, whose `point` is known, of the primitive at a
+ * place of a block, of that index among its kind, where a ray meets it at u and v. */
+#define DECLARE_SURFACE(name, names, NAMES)                                                        \
+    INLINE void name##_surface(const traced *w, int index,                                         \
+                               __global const rt_##name##_block *block, int place, number u,       \
+                               number v, vec3 origin, vec3 direction, surface *s);
+RT_KINDS(DECLARE_SURFACE)
 
 /* The surface that ray i, which goes along `direction`, has met as hit `index`; for a miss and any
  * index something. */
@@ -154,20 +86,18 @@ INLINE void surface_of(const traced *w, size_t i, int index, vec3 direction, sur
 {
     const size_t step = w->step;
     const int slot = max(w->hit_slot[i], 0);
-    const int place = slot % RT_BLOCK_PRIMITIVES;
+    const int block = slot / RT_BLOCK_PRIMITIVES, place = slot % RT_BLOCK_PRIMITIVES;
     const vec3 origin = LOAD3(w->rays, step, i);
     const number t = w->hit_array[RT_HIT_T * step + i];
+    const number u = w->hit_array[RT_HIT_U * step + i], v = w->hit_array[RT_HIT_V * step + i];
     s->point = ADD_SCALED(direction, t, origin);
-    if (RT_SPHERES && index < w->sphere_count) {
-        sphere_surface(w->spheres + slot / RT_BLOCK_PRIMITIVES, place, origin, direction, s);
-    } else if (RT_TRIANGLES) {
-        const number u = w->hit_array[RT_HIT_U * step + i];
-        const number v = w->hit_array[RT_HIT_V * step + i];
-        triangle_surface(w->triangles + slot / RT_BLOCK_PRIMITIVES, place, u, v, direction, s);
-        const int record = RT_SMOOTH ? w->normals_of[index - w->sphere_count] : -1;
-        if (record >= 0)
-            smooth_normal(w->normals + (size_t)record * RT_NORMAL_COMPONENTS, u, v, &s->normal);
-    }
+#define SURFACE(name, names, NAMES)                                                                \
+    if (RT_IS_LAST(NAMES) || (RT_##NAMES && index < w->name##_count)) {                            \
+        name##_surface(w, index, w->names + block, place, u, v, origin, direction, s);             \
+        return;                                                                                    \
+    }                                                                                              \
+    index -= RT_##NAMES ? w->name##_count : 0;
+    RT_KINDS(SURFACE)
 }
 
 /* Where a ray starts that leaves the surface on the side that `side` points to. */

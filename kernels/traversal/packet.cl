@@ -17,14 +17,14 @@ typedef struct world {
 } world;
 
 /* The same as parameters of a kernel, and made from them. */
-#define KIND_PARAMETERS(name, names, NAMES)                                                        \
+#define WORLD_KIND(name, names, NAMES)                                                             \
     , __global const rt_##name##_block *names, const int name##_blocks
 #define WORLD_PARAMETERS                                                                           \
-    __global const rt_node *nodes, __global const int *order RT_KINDS(KIND_PARAMETERS)
-#define KIND_ARGUMENTS(name, names, NAMES) , names, name##_blocks
+    __global const rt_node *nodes, __global const int *order RT_KINDS(WORLD_KIND)
+#define WORLD_KIND_ARGUMENTS(name, names, NAMES) , names, name##_blocks
 #define WORLD                                                                                      \
     {                                                                                              \
-        nodes, order RT_KINDS(KIND_ARGUMENTS)                                                      \
+        nodes, order RT_KINDS(WORLD_KIND_ARGUMENTS)                                                \
     }
 
 /* The primitives of a block's places. */

@@ -20,6 +20,24 @@ FNR == 1 {
     emit("#line 1 \"kernels/" name "\"")
 }
 { emit($0) }
+# What there is of each kind of primitives is a macro of a row: #define ...(name, names, NAMES).
+/^ *kind\([a-z]+, [a-z]+, [A-Z]+\)/ {
+    split($0, part, /[(,) ]+/)
+    ++kinds
+    kind[kinds] = part[3]
+    kinds_of[kinds] = part[4]
+}
+/^#define [A-Z_]*\(name, names, NAMES\)/ {
+    row = $2
+    sub(/\(.*/, "", row)
+    sub(/^[^)]*\)/, "")
+    rows[row] = ""
+}
+row {
+    rows[row] = rows[row] $0
+    if (!sub(/\\$/, "", rows[row]))
+        row = ""
+}
 # Parameters that several kernels have are macros: #define ..._PARAMETERS, continued or not.
 /^#define [A-Z_]*_PARAMETERS/ {
     macro = $2
@@ -39,9 +57,21 @@ signature && /^\{/ {
 signature { signature = signature $0 }
 /^__kernel / { signature = " " }
 # "rt_shade(const int stride, __global float *colors)" to "rt_shade stride colors".
-function names_of(text,    name, list, n, i) {
+function names_of(text,    name, list, row, n, i) {
     for (name in macros)
         gsub(name, macros[name], text)
+    while (match(text, /RT_KINDS\([A-Z_]*\)/)) {
+        name = substr(text, RSTART + 9, RLENGTH - 10)
+        list = ""
+        for (i = 1; i <= kinds; ++i) {
+            row = rows[name]
+            gsub(/names/, kinds_of[i], row)
+            gsub(/name/, kind[i], row)
+            gsub(/##/, "", row)
+            list = list row
+        }
+        text = substr(text, 1, RSTART - 1) list substr(text, RSTART + RLENGTH)
+    }
     n = split(text, part, /[(,)]/)
     sub(/^.*[ *]/, "", part[1])
     list = part[1]

@@ -104,9 +104,10 @@ INLINE void paint(block *all, const rt_frame *frame, const world *w, const paint
         surface s;
         s.point = ADD_SCALED(direction, all->t[k], origin);
         if (index < with->sphere_count)
-            sphere_surface(w->spheres + at, place, origin, direction, &s);
+            sphere_surface(0, index, w->spheres + at, place, 0.0f, 0.0f, origin, direction, &s);
         else
-            triangle_surface(w->triangles + at, place, all->u[k], all->v[k], direction, &s);
+            triangle_surface(0, index, w->triangles + at, place, all->u[k], all->v[k], origin,
+                             direction, &s);
         __global const rt_material *m = with->materials + with->material_of[index];
         const vec3 kd = {m->kd_r, m->kd_g, m->kd_b};
         vec3 sum = {with->around.ambient_r * m->ka_r, with->around.ambient_g * m->ka_g,
