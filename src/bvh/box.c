@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "kernels/margins.h"
+
 static inline void widen(float lo[3], float hi[3])
 {
     const float x = fabsf(lo[0]) + fabsf(hi[0]), y = fabsf(lo[1]) + fabsf(hi[1]),

@@ -8,7 +8,6 @@
 #include "bvh/split.h"
 #include "common/array.h"
 #include "common/parallel.h"
-#include "kernels/margins.h"
 
 /* Primitives that fit into one node of full leaves. */
 #define NODE_PRIMITIVES ((size_t)RT_WIDTH * RT_LEAF_TARGET)

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "bvh/box.h"
 #include "bvh/bvh.h"
 #include "reference/real.h"
 #include "reference/scalar.h"
@@ -131,17 +132,16 @@ static void the_tree_has_the_references(void **state)
     (void)state;
     rt_scene scene;
     make_scene(&scene, RT_ACCURACY_ROBUST);
-    for (size_t i = 0; i < scene.sphere_count + scene.triangle_count; ++i) {
-        float box[2][3];
-        vec lo, hi;
-        if (i < scene.sphere_count)
-            rt_sphere_box(&scene.spheres[i], box[0], box[1]);
-        else
-            rt_triangle_box(&scene.triangles[i - scene.sphere_count], box[0], box[1]);
-        rt_scalar_float_box(&scene, (int)i, &lo, &hi);
-        assert_memory_equal(box[0], &lo, sizeof lo);
-        assert_memory_equal(box[1], &hi, sizeof hi);
-    }
+    int primitive = 0;
+    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
+        for (size_t i = 0; i < scene.kinds[kind].count; ++i) {
+            rt_reference box;
+            vec lo, hi;
+            rt_boxes_of(&scene, (enum rt_kind)kind, i, i + 1, &box);
+            rt_scalar_float_box(&scene, primitive++, &lo, &hi);
+            assert_memory_equal(box.lo, &lo, sizeof lo);
+            assert_memory_equal(box.hi, &hi, sizeof hi);
+        }
     rt_scene_clear(&scene);
 }
 
