@@ -67,6 +67,13 @@ static void good_lines(void **state)
     assert_true(o.verify);
     assert_int_equal(read_line("--stats - s.txt", &o, message, sizeof message), RT_OK);
     assert_int_equal(read_line("--hits h s.txt", &o, message, sizeof message), RT_OK);
+}
+
+static void lines_of_a_study(void **state)
+{
+    (void)state;
+    char message[512];
+    rt_options o;
     assert_int_equal(read_line("--study r s.txt", &o, message, sizeof message), RT_OK);
     assert_string_equal(o.study, "r");
     assert_int_equal(o.action, RT_ACTION_STUDY);
@@ -84,6 +91,14 @@ static void good_lines(void **state)
     assert_int_equal(o.plan.samples[0], 1);
     assert_int_equal(o.plan.samples[1], 16);
     assert_int_equal(o.plan.repeats, 3);
+}
+
+static void lines_about_effects(void **state)
+{
+    (void)state;
+    char message[512];
+    rt_options o;
+    assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.effects, RT_EFFECTS_SCENE);
     assert_false(o.explain || o.no_cost);
     assert_int_equal(read_line("--effects none s.txt o.png", &o, message, sizeof message), RT_OK);
@@ -97,6 +112,13 @@ static void good_lines(void **state)
                      RT_OK);
     assert_true(o.explain && o.no_cost);
     assert_int_equal(o.action, RT_ACTION_EXPLAIN);
+}
+
+static void lines_without_a_scene(void **state)
+{
+    (void)state;
+    char message[512];
+    rt_options o;
     assert_int_equal(read_line("--help", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.action, RT_ACTION_HELP);
     assert_int_equal(read_line("--version", &o, message, sizeof message), RT_OK);
@@ -123,73 +145,75 @@ static void the_environment_names_a_device(void **state)
     unsetenv("RT_DEVICE");
 }
 
+/* What is typed, and what comes back. */
+static const char *const wrong_lines[][2] = {
+    {"", "no scene is given"},
+    {"s.txt", "no output is given"},
+    {"s.txt o.gif", "'o.gif' does not end in .png"},
+    {"s.txt png", "does not end in"},
+    {"s.txt o.png more", "one argument too many: more"},
+    {"--frobnicate s.txt o.png", "cannot make sense of --frobnicate"},
+    {"-x s.txt o.png", "cannot make sense of"},
+    {"s.txt o.png --size", "a value is missing after --size"},
+    {"s.txt o.png --size 640", "found '640'; --size takes WxH"},
+    {"s.txt o.png --size 0x10", "--size takes"},
+    {"s.txt o.png --size 10x-1", "--size takes"},
+    {"s.txt o.png --size 10x10x", "--size takes"},
+    {"s.txt o.png --size 70000x1", "--size takes"},
+    {"s.txt o.png --size 65535x65535", "--size takes"},
+    {"s.txt o.png --effects some", "found 'some'; --effects takes scene, all or none"},
+    {"s.txt o.png --no-cost", "--no-cost is for --explain"},
+    {"s.txt o.png --explain", "--explain renders no picture"},
+    {"s.txt --explain --verify", "--explain renders no picture"},
+    {"s.txt --explain --hits h", "--explain renders no picture"},
+    {"s.txt --explain --effects all", "--explain is of the scene's own effects"},
+    {"s.txt --explain --device scalar", "--explain measures an OpenCL device"},
+    {"s.txt o.png --lanes 3", "found '3'; --lanes takes 1, 4, 8 or 16"},
+    {"s.txt o.png --lanes x", "--lanes takes"},
+    {"s.txt o.png --tile 0", "--tile takes a whole number from 1 to 4096"},
+    {"s.txt o.png --tile 4097", "--tile takes"},
+    {"s.txt - --stats -", "only one thing can go to standard output"},
+    {"s.txt --verify --stats -", "only one thing"},
+    {"s.txt --verify --device scalar", "--verify holds a device"},
+    {"s.txt o.png --device=", "--device takes"},
+    {"s.txt o.png --device 0,", "found '0,'; --device takes a name or index on each side"},
+    {"s.txt o.png --device ,0", "--device takes"},
+    {"s.txt o.png --device 0,,1", "--device takes"},
+    {"s.txt o.png --device 0,Scalar", "the scalar path renders alone"},
+    {"s.txt o.png --device scalar-double,0", "the scalar path renders alone"},
+    {"s.txt o.png --device cpu,all", "all devices cannot be part of a list"},
+    {"--study r s.txt o.png", "--study writes no picture, so there is no place for o.png"},
+    {"--study= s.txt", "--study takes"},
+    {"--study r --verify s.txt", "--study does not go with"},
+    {"--study r --hits h s.txt", "--study does not go with"},
+    {"--study r --stats - s.txt", "--study does not go with"},
+    {"--study r --accuracy fast s.txt", "--study takes --study-levels"},
+    {"--study r --device scalar s.txt", "--study holds a device"},
+    {"--study r --device 0,cpu s.txt", "--study is of one device"},
+    {"--study r --device all s.txt", "--study is of one device"},
+    {"--study-levels fast s.txt o.png", "go with --study"},
+    {"--study r --study-levels fast,exact s.txt",
+     "found 'fast,exact'; --study-levels takes fast, standard, robust or double"},
+    {"--study r --study-levels=fast, s.txt", "--study-levels takes"},
+    {"--study r --study-levels= s.txt", "--study-levels takes"},
+    {"--study r --study-samples 1,0 s.txt", "--study-samples takes up to 16"},
+    {"--study r --study-samples 4097 s.txt", "--study-samples takes"},
+    {"--study r --study-samples 1,,4 s.txt", "--study-samples takes"},
+    {"--study r --study-samples 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17 s.txt",
+     "--study-samples takes"},
+    {"--study r --study-repeats 0 s.txt", "--study-repeats takes a whole number from 1"},
+    {"s.txt o.png --progress some", "found 'some'; --progress takes auto, always or never"},
+};
+
 static void misuse(void **state)
 {
     (void)state;
-    static const char *const lines[][2] = {
-        {"", "no scene is given"},
-        {"s.txt", "no output is given"},
-        {"s.txt o.gif", "'o.gif' does not end in .png"},
-        {"s.txt png", "does not end in"},
-        {"s.txt o.png more", "one argument too many: more"},
-        {"--frobnicate s.txt o.png", "cannot make sense of --frobnicate"},
-        {"-x s.txt o.png", "cannot make sense of"},
-        {"s.txt o.png --size", "a value is missing after --size"},
-        {"s.txt o.png --size 640", "found '640'; --size takes WxH"},
-        {"s.txt o.png --size 0x10", "--size takes"},
-        {"s.txt o.png --size 10x-1", "--size takes"},
-        {"s.txt o.png --size 10x10x", "--size takes"},
-        {"s.txt o.png --size 70000x1", "--size takes"},
-        {"s.txt o.png --size 65535x65535", "--size takes"},
-        {"s.txt o.png --effects some", "found 'some'; --effects takes scene, all or none"},
-        {"s.txt o.png --no-cost", "--no-cost is for --explain"},
-        {"s.txt o.png --explain", "--explain renders no picture"},
-        {"s.txt --explain --verify", "--explain renders no picture"},
-        {"s.txt --explain --hits h", "--explain renders no picture"},
-        {"s.txt --explain --effects all", "--explain is of the scene's own effects"},
-        {"s.txt --explain --device scalar", "--explain measures an OpenCL device"},
-        {"s.txt o.png --lanes 3", "found '3'; --lanes takes 1, 4, 8 or 16"},
-        {"s.txt o.png --lanes x", "--lanes takes"},
-        {"s.txt o.png --tile 0", "--tile takes a whole number from 1 to 4096"},
-        {"s.txt o.png --tile 4097", "--tile takes"},
-        {"s.txt - --stats -", "only one thing can go to standard output"},
-        {"s.txt --verify --stats -", "only one thing"},
-        {"s.txt --verify --device scalar", "--verify holds a device"},
-        {"s.txt o.png --device=", "--device takes"},
-        {"s.txt o.png --device 0,", "found '0,'; --device takes a name or index on each side"},
-        {"s.txt o.png --device ,0", "--device takes"},
-        {"s.txt o.png --device 0,,1", "--device takes"},
-        {"s.txt o.png --device 0,Scalar", "the scalar path renders alone"},
-        {"s.txt o.png --device scalar-double,0", "the scalar path renders alone"},
-        {"s.txt o.png --device cpu,all", "all devices cannot be part of a list"},
-        {"--study r s.txt o.png", "--study writes no picture, so there is no place for o.png"},
-        {"--study= s.txt", "--study takes"},
-        {"--study r --verify s.txt", "--study does not go with"},
-        {"--study r --hits h s.txt", "--study does not go with"},
-        {"--study r --stats - s.txt", "--study does not go with"},
-        {"--study r --accuracy fast s.txt", "--study takes --study-levels"},
-        {"--study r --device scalar s.txt", "--study holds a device"},
-        {"--study r --device 0,cpu s.txt", "--study is of one device"},
-        {"--study r --device all s.txt", "--study is of one device"},
-        {"--study-levels fast s.txt o.png", "go with --study"},
-        {"--study r --study-levels fast,exact s.txt",
-         "found 'fast,exact'; --study-levels takes fast, standard, robust or double"},
-        {"--study r --study-levels=fast, s.txt", "--study-levels takes"},
-        {"--study r --study-levels= s.txt", "--study-levels takes"},
-        {"--study r --study-samples 1,0 s.txt", "--study-samples takes up to 16"},
-        {"--study r --study-samples 4097 s.txt", "--study-samples takes"},
-        {"--study r --study-samples 1,,4 s.txt", "--study-samples takes"},
-        {"--study r --study-samples 1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17 s.txt",
-         "--study-samples takes"},
-        {"--study r --study-repeats 0 s.txt", "--study-repeats takes a whole number from 1"},
-        {"s.txt o.png --progress some", "found 'some'; --progress takes auto, always or never"},
-    };
     char message[512];
     rt_options o;
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; ++i) {
-        assert_int_equal(read_line(lines[i][0], &o, message, sizeof message), RT_ERROR_USAGE);
-        if (!strstr(message, lines[i][1]))
-            fail_msg("'%s' says: %s", lines[i][0], message);
+    for (size_t i = 0; i < sizeof wrong_lines / sizeof *wrong_lines; ++i) {
+        assert_int_equal(read_line(wrong_lines[i][0], &o, message, sizeof message), RT_ERROR_USAGE);
+        if (!strstr(message, wrong_lines[i][1]))
+            fail_msg("'%s' says: %s", wrong_lines[i][0], message);
     }
 }
 
@@ -309,6 +333,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(good_lines),
+        cmocka_unit_test(lines_of_a_study),
+        cmocka_unit_test(lines_about_effects),
+        cmocka_unit_test(lines_without_a_scene),
         cmocka_unit_test(the_environment_names_a_device),
         cmocka_unit_test(misuse),
         cmocka_unit_test(the_man_page_has_the_options),

@@ -16,14 +16,6 @@ const test_mutation test_mutations[MUTANT_COUNT] = {
 #undef MUTANT
 };
 
-size_t test_count_text(const char *text, const char *part)
-{
-    size_t count = 0;
-    for (const char *at = strstr(text, part); at; at = strstr(at + 1, part))
-        ++count;
-    return count;
-}
-
 /* Makes the folders on the way to a file below `root`. */
 static void make_folders(const char *root, const char *name)
 {

@@ -23,9 +23,6 @@ typedef struct test_mutation {
 /* By mutant; nothing but NULL for MUTANT_NONE. */
 extern const test_mutation test_mutations[MUTANT_COUNT];
 
-/* How often `part` is in `text`. */
-size_t test_count_text(const char *text, const char *part);
-
 /* Copies the kernels, those of RT_KERNELS where that is set, to a fresh folder with that change and
  * makes RT_KERNELS name it until test_restore_kernels. */
 void test_mutate_kernels(test_mutant mutant);

@@ -178,6 +178,14 @@ char *test_read_file(const char *path, size_t *length)
     return text.bytes;
 }
 
+size_t test_count_text(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (const char *at = strstr(text, part); at; at = strstr(at + 1, part))
+        ++count;
+    return count;
+}
+
 int test_run(const char *command, char *errors, size_t size)
 {
     const char *log = test_path("errors.log");

@@ -63,6 +63,9 @@ void test_write_text(const char *path, const char *text);
 /* The file's bytes and a terminator; the caller frees them. NULL if it cannot be read. */
 char *test_read_file(const char *path, size_t *length);
 
+/* How often `part` is in `text`. */
+size_t test_count_text(const char *text, const char *part);
+
 /* Runs a shell command; returns its exit code. Standard error goes to `errors`[0..size) where that
  * is not NULL; standard output goes where the command says. In the command, $RT is the program. */
 int test_run(const char *command, char *errors, size_t size);
