@@ -11,6 +11,20 @@ INLINE number filtered(number t, const int tent)
     return tent ? side : t - (number)0.5f;
 }
 
+/* Ray i is its pixel's own, and nothing has been lost of it. */
+INLINE void begin_path(__global int *home, __global number *paths, __global int *marks, size_t step,
+                       size_t i)
+{
+    home[i] = (int)i;
+    paths[RT_PATH_WEIGHT * step + i] = 1.0f;
+    paths[RT_PATH_TINT_R * step + i] = 1.0f;
+    paths[RT_PATH_TINT_G * step + i] = 1.0f;
+    paths[RT_PATH_TINT_B * step + i] = 1.0f;
+    marks[RT_MARK_BOUNCE * step + i] = 0;
+    marks[RT_MARK_MEDIUM * step + i] = RT_OUTSIDE;
+    marks[RT_MARK_WAITING * step + i] = 0;
+}
+
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
           const rt_turn turn, const int samples, const int flags, __global float *colors,
@@ -65,14 +79,6 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     rays[RT_RAY_TMAX * step + i] = p.inside ? INFINITY : -1.0f;
     if (RT_SUM && turn.sample == 0)
         colors[i] = colors[step + i] = colors[2 * step + i] = 0.0f;
-    if (!RT_NEXT)
-        return;
-    home[i] = (int)i;
-    paths[RT_PATH_WEIGHT * step + i] = 1.0f;
-    paths[RT_PATH_TINT_R * step + i] = 1.0f;
-    paths[RT_PATH_TINT_G * step + i] = 1.0f;
-    paths[RT_PATH_TINT_B * step + i] = 1.0f;
-    marks[RT_MARK_BOUNCE * step + i] = 0;
-    marks[RT_MARK_MEDIUM * step + i] = RT_OUTSIDE;
-    marks[RT_MARK_WAITING * step + i] = 0;
+    if (RT_NEXT)
+        begin_path(home, paths, marks, step, i);
 }
