@@ -62,7 +62,7 @@ KERNELS := $(addprefix $(SRC)kernels/,effects.def primitives/kinds.h options.h l
            $(addprefix stages/,camera.cl trace.cl probe.cl path.cl shade.cl queue.cl resolve.cl))
 
 SOURCES := $(wildcard $(SRC)src/*.c $(SRC)src/*/*.c)
-HEADERS := $(wildcard $(SRC)src/*/*.h)
+HEADERS := $(wildcard $(SRC)src/*/*.h $(SRC)src/*/*.def)
 # The scalar reference is compiled twice, for float and for double; stb's code is compiled as it is.
 OBJECTS := $(SOURCES:$(SRC)src/%.c=$(BUILD)/%.o) $(BUILD)/opencl/kernel_text.o \
            $(patsubst $(SRC)src/%.c,$(BUILD)/%_double.o,$(wildcard $(SRC)src/reference/*.c))

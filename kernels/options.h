@@ -67,16 +67,14 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #if RT_SWITCHED != 0 && RT_SWITCHED != 1
 #error "RT_SWITCHED must be 0 or 1"
 #endif
-#define ON(effect)                                                                                 \
-    (RT_##effect && (!RT_SWITCHED || (flags & RT_FLAG(RT_EFFECT_##effect)) != 0))
+#define ON(effect) (RT_##effect && (!RT_SWITCHED || (flags & RT_FLAG(RT_EFFECT_##effect)) != 0))
 
 /* Rays that a work-item of the stages beside trace looks after: a block where vectors are wide. */
 #define RT_ITEM_RAYS (RT_LANES > 1 ? RT_BLOCK_RAYS : 1)
 
-/* What follows from the effects: lights that cast shadows, 1 those that are points, 2 balls too;
- * rays that go on from where others end, colours that are sums, rays that ask whether the way is
- * free, random points. */
-#define RT_SHADOWS (RT_SOFT_SHADOWS ? 2 : RT_HARD_SHADOWS)
+/* What follows from the effects: shadows of either kind, rays that go on from where others end,
+ * colours that are sums, rays that ask whether the way is free, random points. */
+#define RT_SHADOWS (RT_HARD_SHADOWS || RT_SOFT_SHADOWS)
 #define RT_NEXT (RT_REFLECT || RT_REFRACT)
 #define RT_SUM (RT_ANTIALIAS || RT_NEXT)
 #define RT_PROBES (RT_SHADOWS || RT_AMBIENT_OCCLUSION)
@@ -90,7 +88,7 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #error "RT_OCCLUSION must be 0 or 1"
 #endif
 #if RT_PROBES && !RT_OCCLUSION
-#error "RT_SHADOWS and RT_AMBIENT_OCCLUSION need RT_OCCLUSION"
+#error "shadows and RT_AMBIENT_OCCLUSION need RT_OCCLUSION"
 #endif
 
 /* The number of lights where they are few, so that the loop over them is none; -1: an argument. */

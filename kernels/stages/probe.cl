@@ -76,7 +76,7 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
     l = ADD_SCALED(s.point, away, place);
     const int on = make_unit_if_any(&l) & is_hit;
     leave(&s, &l, &origin);
-    if (RT_SHADOWS == 2 && light->radius > 0.0f) {
+    if (RT_SOFT_SHADOWS && light->radius > 0.0f) {
         number x, y;
         disk_sample(set, step, i, &x, &y);
         vec3 t1, t2;
@@ -105,7 +105,7 @@ rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *l
     __global const rt_light *light = lights + turn.light;
     PROBE_ITEM(turn);
     probe_set set = PROBE_SET(RT_DIMENSION_LIGHT + (uint)turn.light, turn);
-    if (RT_SHADOWS == 2)
+    if (RT_SOFT_SHADOWS)
         make_strata(light->samples, &set.cells);
     if (!any_hit(hit_index, first)) {
         EACH_RAY(k)
