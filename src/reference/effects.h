@@ -71,6 +71,22 @@ typedef struct surface {
     real lift; /* how far above, so that no rounding brings the primitive back in their way */
 } surface;
 
+/* In a file of each kind of primitive: all but the material of the i-th of the kind. */
+#define KIND_IN_SURFACE(name, names, NAMES)                                                        \
+    surface NAME(surface_of_##name)(const rt_scene *scene, const ray *r, size_t i, const hit *h);
+RT_KINDS(KIND_IN_SURFACE)
+
+/* Turns a geometric normal that points outward to the side that the ray comes from. */
+void NAME(face)(surface *s, vec outward, vec direction);
+
+/* What rounding can do to a start on a primitive, and to one on the ray, relative to the numbers
+ * that went in. */
+#define START_BOUND (8 * HALF_ULP)
+#define POINT_BOUND (32 * HALF_ULP)
+
+/* How far a box reaches along the normal whose half sides are the bound times `sizes`. */
+real NAME(lift_for)(real bound, vec sizes, vec normal);
+
 surface NAME(surface_at)(const rt_scene *scene, const ray *r, const hit *h);
 
 /* Where a ray starts that leaves the surface on the side that `side` points to. */

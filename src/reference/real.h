@@ -77,6 +77,11 @@ static inline vec times(vec a, real s)
     return (vec){a.x * s, a.y * s, a.z * s};
 }
 
+static inline vec magnitudes(vec a)
+{
+    return (vec){FABS(a.x), FABS(a.y), FABS(a.z)};
+}
+
 /* Component by component. */
 static inline vec product(vec a, vec b)
 {
@@ -140,12 +145,15 @@ void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi);
 void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real *enter,
                        real *leave);
 
+/* In a file of each kind of primitive: t, u and v of a hit with the i-th of the kind, false for a
+ * miss; its exact box. */
+#define KIND_IN_TRACE(name, names, NAMES)                                                          \
+    bool NAME(meet_##name)(const rt_scene *scene, const ray *r, size_t i, hit *h);                 \
+    void NAME(box_of_##name)(const rt_##name *primitive, float lo[3], float hi[3]);
+RT_KINDS(KIND_IN_TRACE)
+
 /* watertight.c: the robust test of a triangle; false for a miss. */
 bool NAME(meet_watertight)(const rt_triangle *triangle, const ray *r, int cull, hit *h);
-
-/* sphere.c: the roots of |origin + t direction - center| = radius, the nearer first; false
- * without any. Hit or miss is as in exact arithmetic, but for rays that all but touch. */
-bool NAME(robust_roots)(const ray *r, vec center, real radius, real *near, real *far);
 
 /* Whether the scene's level asks for the robust tests; in double they are the only ones. */
 static inline bool is_robust(const rt_scene *scene)

@@ -2,32 +2,6 @@
 #include "reference/margins.h"
 #include "reference/real.h"
 
-/* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
-static bool sphere_roots(const ray *r, vec center, real radius, real *near, real *far)
-{
-    const vec f = minus(r->origin, center);
-    const real dd = dot(r->direction, r->direction);
-    const real b = -dot(f, r->direction);
-    /* From the centre to the ray's closest approach. */
-    const vec l = add_scaled(r->direction, b * ((real)1 / dd), f);
-    const real discriminant = FMA(radius, radius, -dot(l, l));
-    if (!(discriminant >= 0))
-        return false;
-    const real root = SQRT(dd * discriminant);
-    const real c = FMA(-radius, radius, dot(f, f));
-    /* Adding numbers of like sign cancels nothing; the product of the roots gives the other. */
-    if (b >= 0) {
-        const real q = b + root;
-        *near = c / q;
-        *far = q / dd;
-    } else {
-        const real q = b - root;
-        *near = q / dd;
-        *far = c / q;
-    }
-    return true;
-}
-
 /* Where the ray is within an axis's slab, and no longer; a direction of 0 counts as the smallest.
  */
 static void slab(real origin, real direction, real lo, real hi, real *enter, real *leave)
@@ -54,46 +28,26 @@ void NAME(part_in_box)(const rt_scene *scene, const ray *r, vec lo, vec hi, real
     *leave = *leave * (real)(is_robust(scene) ? SLAB_MARGIN_ROBUST : SLAB_MARGIN);
 }
 
-/* One axis of a primitive's box, its margin still to come. */
-typedef struct extent {
-    float lo, hi;
-} extent;
-
-static extent around(float center, float radius)
-{
-    return (extent){center - radius, center + radius};
-}
-
-static extent over(float a, float b, float c)
-{
-    return (extent){fminf(a, fminf(b, c)), fmaxf(a, fmaxf(b, c))};
-}
-
-static float margin_of(extent e)
-{
-    return (fabsf(e.lo) + fabsf(e.hi)) * BOX_MARGIN;
-}
-
 /* In float also where the rest is in double: that is what primitives are made of. */
 void NAME(box)(const rt_scene *scene, int primitive, vec *lo, vec *hi)
 {
-    extent x, y, z;
-    if (primitive < (int)scene->sphere_count) {
-        const rt_sphere *s = &scene->spheres[primitive];
-        x = around(s->cx, s->radius);
-        y = around(s->cy, s->radius);
-        z = around(s->cz, s->radius);
-    } else {
-        const rt_triangle *t = &scene->triangles[primitive - (int)scene->sphere_count];
-        x = over(t->ax, t->bx, t->cx);
-        y = over(t->ay, t->by, t->cy);
-        z = over(t->az, t->bz, t->cz);
+    float low[3] = {0}, high[3] = {0}, margin[3];
+    size_t i = (size_t)primitive;
+    switch (rt_scene_kind_of(scene, &i)) {
+#define BOX_OF(name, names, NAMES)                                                                 \
+    case RT_KIND_##NAMES:                                                                          \
+        NAME(box_of_##name)(&scene->names[i], low, high);                                          \
+        break;
+        RT_KINDS(BOX_OF)
+    case RT_KIND_COUNT:
+        break;
     }
-    float mx = margin_of(x), my = margin_of(y), mz = margin_of(z);
+    for (int k = 0; k < 3; ++k)
+        margin[k] = (fabsf(low[k]) + fabsf(high[k])) * BOX_MARGIN;
     if (is_robust(scene))
-        mx = my = mz = fmaxf(mx, fmaxf(my, mz));
-    *lo = vec_of(x.lo - mx, y.lo - my, z.lo - mz);
-    *hi = vec_of(x.hi + mx, y.hi + my, z.hi + mz);
+        margin[0] = margin[1] = margin[2] = fmaxf(margin[0], fmaxf(margin[1], margin[2]));
+    *lo = vec_of(low[0] - margin[0], low[1] - margin[1], low[2] - margin[2]);
+    *hi = vec_of(high[0] + margin[0], high[1] + margin[1], high[2] + margin[2]);
 }
 
 /* Takes a hit if it is nearer than the best, or as near and of a lower index. Rounding can put t
@@ -117,56 +71,20 @@ static void take(const rt_scene *scene, const ray *r, hit candidate, hit *best)
         *best = candidate;
 }
 
-static void meet_sphere(const rt_scene *scene, const ray *r, int primitive, hit *best)
-{
-    real near, far;
-    const rt_sphere *sphere = &scene->spheres[primitive];
-    const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
-    const real radius = (real)sphere->radius;
-    if (!(is_robust(scene) ? NAME(robust_roots)(r, center, radius, &near, &far)
-                           : sphere_roots(r, center, radius, &near, &far)))
-        return;
-    take(scene, r, (hit){primitive, near > r->tmin ? near : far, 0, 0}, best);
-}
-
-/* Moller and Trumbore 1997. */
-static void meet_triangle(const rt_scene *scene, const ray *r, int primitive, hit *best)
-{
-    const rt_triangle *triangle = &scene->triangles[primitive - (int)scene->sphere_count];
-    const int cull = rt_scene_cull_sign(scene);
-    hit watertight = {primitive, 0, 0, 0};
-    if (is_robust(scene)) {
-        if (NAME(meet_watertight)(triangle, r, cull, &watertight))
-            take(scene, r, watertight, best);
-        return;
-    }
-    const vec a = vec_of(triangle->ax, triangle->ay, triangle->az);
-    const vec e1 = minus(vec_of(triangle->bx, triangle->by, triangle->bz), a);
-    const vec e2 = minus(vec_of(triangle->cx, triangle->cy, triangle->cz), a);
-    const vec p = cross(r->direction, e2);
-    const vec s = minus(r->origin, a);
-    const vec q = cross(s, e1);
-    real det = dot(e1, p);
-    real u = dot(s, p);
-    real v = dot(r->direction, q);
-    real t = dot(e2, q);
-    if ((cull > 0 && !(det > 0)) || (cull < 0 && !(det < 0)))
-        return;
-    if (det < 0) {
-        det = -det;
-        u = -u;
-        v = -v;
-        t = -t;
-    }
-    if (!(det > 0 && u >= 0 && v >= 0 && u + v <= det))
-        return;
-    take(scene, r, (hit){primitive, t / det, u / det, v / det}, best);
-}
-
 void NAME(meet)(const rt_scene *scene, const ray *r, int primitive, hit *best)
 {
-    if (primitive < (int)scene->sphere_count)
-        meet_sphere(scene, r, primitive, best);
-    else
-        meet_triangle(scene, r, primitive, best);
+    hit h = {primitive, 0, 0, 0};
+    bool is_met = false;
+    size_t i = (size_t)primitive;
+    switch (rt_scene_kind_of(scene, &i)) {
+#define MEET(name, names, NAMES)                                                                   \
+    case RT_KIND_##NAMES:                                                                          \
+        is_met = NAME(meet_##name)(scene, r, i, &h);                                               \
+        break;
+        RT_KINDS(MEET)
+    case RT_KIND_COUNT:
+        break;
+    }
+    if (is_met)
+        take(scene, r, h, best);
 }

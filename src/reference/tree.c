@@ -94,7 +94,7 @@ static int build(builder *b, int begin, int end)
 
 scalar_world NAME(world)(const rt_scene *scene)
 {
-    const size_t count = scene->sphere_count + scene->triangle_count;
+    const size_t count = rt_scene_primitive_count(scene);
     scalar_world world = {.scene = scene};
     if (count == 0)
         return world;
@@ -121,7 +121,7 @@ void NAME(world_clear)(scalar_world *world)
 
 static void try_every_primitive(const scalar_world *w, const ray *r, hit *best)
 {
-    const int count = (int)(w->scene->sphere_count + w->scene->triangle_count);
+    const int count = (int)rt_scene_primitive_count(w->scene);
     for (int i = 0; i < count; ++i)
         NAME(meet)(w->scene, r, i, best);
 }

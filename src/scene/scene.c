@@ -83,14 +83,6 @@ size_t rt_scene_primitive_count(const rt_scene *scene)
     return rt_scene_primitives_before(scene, RT_KIND_COUNT);
 }
 
-enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index)
-{
-    int kind = 0;
-    for (; kind < RT_KIND_COUNT - 1 && *index >= scene->kinds[kind].count; ++kind)
-        *index -= scene->kinds[kind].count;
-    return (enum rt_kind)kind;
-}
-
 static bool reserve(rt_scene *scene, enum rt_kind kind, size_t more, rt_status *status)
 {
     if (more > INT32_MAX - rt_scene_primitive_count(scene))

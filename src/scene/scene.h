@@ -133,7 +133,13 @@ bool rt_scene_reserve_triangles(rt_scene *scene, size_t triangles, size_t normal
 size_t rt_scene_primitive_count(const rt_scene *scene);
 size_t rt_scene_primitives_before(const rt_scene *scene, enum rt_kind kind);
 /* The kind of the primitive of an index, which is made the place among those of its kind. */
-enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index);
+static inline enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index)
+{
+    int kind = 0;
+    for (; kind < RT_KIND_COUNT - 1 && *index >= scene->kinds[kind].count; ++kind)
+        *index -= scene->kinds[kind].count;
+    return (enum rt_kind)kind;
+}
 
 /* Brings a scene that is complete to a unit of length (unit_exponent) in which the arithmetic of
  * float has room: largest coordinate of primitives and eye from 2^-10 to 2^38. Exact, but for what

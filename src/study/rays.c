@@ -86,10 +86,18 @@ static start on_triangle(const rt_triangle *t, const rt_ray *ray, const rt_hit *
 static rt_ray next_ray(const rt_scene *scene, const rt_ray *ray, const rt_hit *hit, uint32_t index,
                        float *at_once)
 {
-    const size_t i = (size_t)hit->primitive;
-    const start s = i < scene->sphere_count
-                        ? on_sphere(&scene->spheres[i], ray, hit)
-                        : on_triangle(&scene->triangles[i - scene->sphere_count], ray, hit);
+    start s = {0};
+    size_t i = (size_t)hit->primitive;
+    switch (rt_scene_kind_of(scene, &i)) {
+    case RT_KIND_SPHERES:
+        s = on_sphere(&scene->spheres[i], ray, hit);
+        break;
+    case RT_KIND_TRIANGLES:
+        s = on_triangle(&scene->triangles[i], ray, hit);
+        break;
+    case RT_KIND_COUNT:
+        break;
+    }
     const vec3 n = s.normal;
     const double lift =
         START_BOUND * (fabs(n.x) * s.extent.x + fabs(n.y) * s.extent.y + fabs(n.z) * s.extent.z);
