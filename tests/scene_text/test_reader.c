@@ -282,6 +282,21 @@ static void a_triangle_without_area_is_told(void **state)
     rt_status_clear(&status);
 }
 
+/* Whether a text is as expected, where "..." at the end of a line is any rest of it: lists of what
+ * there is grow with the grammar. */
+static bool is_as_expected(const char *text, const char *expected)
+{
+    while (*expected) {
+        if (strncmp(expected, "...\n", 4) == 0) {
+            expected += 3;
+            text += strcspn(text, "\n");
+        }
+        if (*text++ != *expected++)
+            return false;
+    }
+    return *text == '\0';
+}
+
 static void every_bad_scene_has_its_message(void **state)
 {
     (void)state;
@@ -310,7 +325,8 @@ static void every_bad_scene_has_its_message(void **state)
         const size_t more = status.errors > RT_STATUS_SHOWN ? status.errors - RT_STATUS_SHOWN : 0;
         if (more)
             assert_true(asprintf(&text, "%srt: %zu more errors\n", status.text, more) > 0);
-        assert_string_equal(text ? text : status.text, expected);
+        if (!is_as_expected(text ? text : status.text, expected))
+            fail_msg("%s says:\n%s", path, text ? text : status.text);
         free(text);
         free(expected);
         rt_scene_clear(&s);
