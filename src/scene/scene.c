@@ -83,12 +83,18 @@ size_t rt_scene_primitive_count(const rt_scene *scene)
     return rt_scene_primitives_before(scene, RT_KIND_COUNT);
 }
 
+static bool has_free_indices(const rt_scene *scene, size_t count, rt_status *status)
+{
+    if (count <= INT32_MAX - rt_scene_primitive_count(scene))
+        return true;
+    return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
+}
+
 static bool reserve(rt_scene *scene, enum rt_kind kind, size_t more, rt_status *status)
 {
-    if (more > INT32_MAX - rt_scene_primitive_count(scene))
-        return rt_status_fail(status, RT_ERROR_SCENE, "rt: more than %d primitives", INT32_MAX);
-    return rt_primitives_reserve(&scene->kinds[kind], kind, more) ||
-           rt_status_no_memory(status, rt_kinds[kind].names);
+    return has_free_indices(scene, more, status) &&
+           (rt_primitives_reserve(&scene->kinds[kind], kind, more) ||
+            rt_status_no_memory(status, rt_kinds[kind].names));
 }
 
 bool rt_scene_add_primitive(rt_scene *scene, enum rt_kind kind, const void *primitive,
@@ -134,14 +140,21 @@ bool rt_scene_add_triangle(rt_scene *scene, const rt_triangle *triangle, const f
                            int32_t material, rt_status *status)
 {
     const size_t count = scene->triangle_count;
-    if (!rt_scene_reserve_triangles(scene, 1, normals ? 1 : 0, status) ||
-        !rt_scene_add_primitive(scene, RT_KIND_TRIANGLES, triangle, material, status))
+    /* Meshes have made room for all of theirs at once. */
+    const bool has_room = count < scene->triangle_capacity &&
+                          count < scene->triangle_record_capacity &&
+                          (!normals || scene->normal_count < scene->normal_capacity);
+    if (!(has_room ? has_free_indices(scene, 1, status)
+                   : rt_scene_reserve_triangles(scene, 1, normals ? 1 : 0, status)))
         return false;
+    scene->triangles[count] = *triangle;
+    scene->triangle_materials[count] = material;
     scene->triangle_normals[count] = normals ? (int32_t)scene->normal_count : -1;
     scene->triangle_uvs[count] = -1;
     if (normals)
         memcpy(scene->normals + RT_NORMAL_COMPONENTS * scene->normal_count++, normals,
                RT_NORMAL_COMPONENTS * sizeof *normals);
+    scene->triangle_count++;
     return true;
 }
 
