@@ -181,7 +181,8 @@ rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_ma
         __global const rt_material *m = materials + material;
         number part = m->reflect;
         next_ray aside;
-        has = RT_REFRACT && send_refracted(direction, &s, m, material, &from, &r, &part);
+        if (RT_REFRACT)
+            has = send_refracted(direction, &s, m, material, &from, &r, &part);
         if (send_mirrored(direction, &s, part, &from, has ? &aside : &r)) {
             if (has)
                 push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
