@@ -54,7 +54,7 @@ static bool probe(passes *p, int row, int samples, enum rt_stage rays, enum rt_s
 {
     /* Both are set long before; the analyzer loses sight of one of them over the launches.
      * NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
-    const int most = p->r->stride / (int)p->rays;
+    const int most = p->r->capacity / (int)p->rays;
     p->turn.light = row;
     for (int first = 0; first < samples; first += most) {
         p->turn.first = first;

@@ -110,7 +110,7 @@ static bool trace_part(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
 bool rt_renderer_trace(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit *hits,
                        rt_status *status)
 {
-    const size_t most = (size_t)r->stride;
+    const size_t most = (size_t)r->capacity;
     for (size_t done = 0; done < count; done += most) {
         const size_t part = count - done < most ? count - done : most;
         if (!trace_part(r, rays + done, part, hits + done, status))
@@ -122,7 +122,7 @@ bool rt_renderer_trace(rt_renderer *r, const rt_ray *rays, size_t count, rt_hit 
 bool rt_renderer_occluded(rt_renderer *r, const rt_ray *rays, size_t count, uint8_t *occluded,
                           rt_status *status)
 {
-    const size_t most = (size_t)r->stride;
+    const size_t most = (size_t)r->capacity;
     for (size_t done = 0; done < count; done += most) {
         const size_t part = count - done < most ? count - done : most;
         if (!trace_stage(r, RT_STAGE_OCCLUDE, rays + done, part, status) ||

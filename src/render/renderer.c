@@ -55,6 +55,10 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
     return rt_pipeline_make(r, scene, status);
 }
 
+/* A cache line of floats between the components of an array. With a power of two between them, as
+ * the rays of a tile mostly are, those of one ray would fall into the same few sets of a cache. */
+#define STRIDE_PADDING 16
+
 static int round_up(int value, int multiple)
 {
     return (value + multiple - 1) / multiple * multiple;
@@ -64,7 +68,7 @@ static int round_up(int value, int multiple)
 static bool remember(rt_renderer *r, const rt_scene *scene, const rt_effects *given,
                      rt_status *status)
 {
-    const size_t blocks = (size_t)r->stride / RT_BLOCK_RAYS;
+    const size_t blocks = (size_t)r->capacity / RT_BLOCK_RAYS;
     r->effects = given ? *given : rt_effects_of(scene);
     r->width = scene->width;
     r->height = scene->height;
@@ -76,7 +80,7 @@ static bool remember(rt_renderer *r, const rt_scene *scene, const rt_effects *gi
     r->light_count = (int)scene->light_count;
     r->lights = calloc(scene->light_count + 1, sizeof *r->lights);
     r->counts = malloc((RT_COUNT_COMPONENTS + 1) * blocks * sizeof *r->counts);
-    r->staging = malloc((size_t)r->stride * r->number_size);
+    r->staging = malloc((size_t)r->capacity * r->number_size);
     if (!r->lights || !r->counts || !r->staging)
         return rt_status_no_memory(status, "the renderer");
     for (size_t i = 0; i < scene->light_count; ++i)
@@ -98,7 +102,8 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
     r->with_hits = options->with_hits;
     r->with_occlusion = options->with_occlusion;
     const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
-    r->stride = side * side;
+    r->capacity = side * side;
+    r->stride = r->capacity + STRIDE_PADDING;
     if (remember(r, scene, options->effects, status) && build(r, device, scene, bvh, status))
         return r;
     rt_renderer_free(r);

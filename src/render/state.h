@@ -29,11 +29,12 @@ struct rt_renderer {
     int samples, depth, occlusion_samples;
     int unit_exponent;  /* the scene's */
     size_t number_size; /* of a `number` of the kernels */
-    cl_int stride;      /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
+    int capacity;       /* rays that the tile arrays hold, a multiple of RT_BLOCK_RAYS */
+    cl_int stride;      /* elements from one component of an array to the next, a few more */
     int tile_side, lanes, packet;
     int width, height;
     bool with_hits, with_occlusion;
-    void *staging;  /* owned: stride numbers, for rt_renderer_trace */
+    void *staging;  /* owned: capacity numbers, for rt_renderer_trace */
     cl_int *counts; /* owned: RT_COUNT_COMPONENTS a block, and the blocks' first rays after them */
     flight flights[TILES_IN_FLIGHT];
     rt_render_times times;
