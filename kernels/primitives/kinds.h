@@ -78,7 +78,8 @@ RT_KINDS(RT_KIND_TYPES)
 #define RT_LEAF_BLOCK_BITS (31 - RT_LEAF_KIND_BITS)
 #define RT_LEAF_BLOCKS (1 << RT_LEAF_BLOCK_BITS)
 #define RT_LEAF_OF(kind, block) (RT_LEAF | (int)(kind) << RT_LEAF_BLOCK_BITS | (int)(block))
-#define RT_LEAF_KIND(leaf) ((leaf) >> RT_LEAF_BLOCK_BITS & ((1 << RT_LEAF_KIND_BITS) - 1))
+#define RT_LEAF_KIND(leaf)                                                                         \
+    ((int)((unsigned)(leaf) >> RT_LEAF_BLOCK_BITS) & ((1 << RT_LEAF_KIND_BITS) - 1))
 #define RT_LEAF_BLOCK(leaf) ((leaf) & (RT_LEAF_BLOCKS - 1))
 
 #endif
