@@ -122,7 +122,7 @@ $(BUILD)/opencl/kernel_text.c: $(SRC)src/opencl/kernel_text.awk $(KERNELS)
 # Tests name scenes/ and kernels/, so they run where these are; files of ours are then far from there.
 in_source = cd $(or $(SRC),.) &&
 from_source = $(if $(SRC),$(abspath $(1)),$(1))
-remake = @$(MAKE) --no-print-directory -f $(MAKEFILE)
+remake = +@$(MAKE) --no-print-directory -f $(MAKEFILE)
 
 # Two commands on a fresh machine: both install what is missing and say nothing when nothing is.
 .PHONY: demo test check
@@ -196,6 +196,7 @@ check-asan: $(BUILD)/rt $(TESTS)
 lint: deps deps-lint ## the folders' order, documents, clang-format, cppcheck and clang-tidy
 	$(Q)$(SRC)tests/links
 	$(Q)$(SRC)tests/arrows $(SOURCES) $(HEADERS)
+	$(Q)$(in_source) tests/mutants --known $(FILE)
 	$(Q)clang-format --dry-run -Werror $(SOURCES) $(HEADERS) $(wildcard $(SRC)tests/*/*.[ch]) $(KERNELS)
 	$(Q)cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr \
 	    --suppress=missingIncludeSystem --error-exitcode=1 -I$(SRC)src -I$(SRC). -I$(SRC)tests \
@@ -298,7 +299,7 @@ INSTALLED = $(bindir)/$(PROGRAM) $(mandir)/man1/$(PROGRAM).1 \
 .PHONY: install install-strip uninstall
 install: rt ## installs to PREFIX=/usr/local, below DESTDIR= if given, as PROGRAM=rt
 	$(INSTALL) -d $(sort $(dir $(INSTALLED:%=$(DESTDIR)%)))
-	$(INSTALL) $(STRIP) -m 755 rt $(DESTDIR)$(bindir)/$(PROGRAM)
+	$(INSTALL) $(strip_flag) -m 755 rt $(DESTDIR)$(bindir)/$(PROGRAM)
 	$(INSTALL) -m 644 $(DOCS) $(DESTDIR)$(docdir)
 	$(INSTALL) -m 644 $(SCENES) $(DESTDIR)$(docdir)/scenes
 	$(call name,$(subst -,\\-,$(PROGRAM))) $(SRC)src/cli/rt.1 >$(DESTDIR)$(mandir)/man1/$(PROGRAM).1
@@ -307,7 +308,7 @@ install: rt ## installs to PREFIX=/usr/local, below DESTDIR= if given, as PROGRA
 	chmod 644 $(addprefix $(DESTDIR),$(mandir)/man1/$(PROGRAM).1 $(bashcompletiondir)/$(PROGRAM) \
 	    $(zshcompletiondir)/_$(PROGRAM))
 
-install-strip: STRIP := -s
+install-strip: strip_flag := -s
 install-strip: install
 
 uninstall: ## removes what make install put there

@@ -1,5 +1,6 @@
-/* Every build option of the kernels, with its default. src/render/variant.c is the only place that
- * sets them; a value that no kernel knows stops the build here, not in the middle of a stage. */
+/* Every build option of the kernels but those of the kinds of primitives (primitives/kinds.h), with
+ * its default where it has one. src/render/variant.c is the only place that sets them; a value that
+ * no kernel knows stops the build here, not in the middle of a stage. */
 
 /* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY
@@ -73,12 +74,11 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #define RT_ITEM_RAYS (RT_LANES > 1 ? RT_BLOCK_RAYS : 1)
 
 /* What follows from the effects: shadows of either kind, rays that go on from where others end,
- * colours that are sums, rays that ask whether the way is free, random points. */
+ * colours that are sums, rays that ask whether the way is free. */
 #define RT_SHADOWS (RT_HARD_SHADOWS || RT_SOFT_SHADOWS)
 #define RT_NEXT (RT_REFLECT || RT_REFRACT)
 #define RT_SUM (RT_ANTIALIAS || RT_NEXT)
 #define RT_PROBES (RT_SHADOWS || RT_AMBIENT_OCCLUSION)
-#define RT_RANDOM (RT_ANTIALIAS || RT_LENS || RT_SOFT_SHADOWS || RT_AMBIENT_OCCLUSION)
 
 /* Whether there is a kernel for any hit beside that for the nearest. */
 #ifndef RT_OCCLUSION

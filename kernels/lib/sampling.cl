@@ -1,7 +1,7 @@
 /* Random points, the same on every device: integers, then correctly rounded arithmetic. They depend
  * on the pixel, on what they are for and on the sample's number, and on nothing else. */
 
-#if RT_ACCURACY == 3
+#if RT_ACCURACY == RT_DOUBLE
 #define LITERAL(x) x
 #else
 #define LITERAL(x) x##f

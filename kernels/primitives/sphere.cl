@@ -1,4 +1,5 @@
-/* Spheres: rays against them at each level, one in all lanes or a block in the lanes. */
+/* Spheres: rays against them at each level, one in all lanes or a block in the lanes; their
+ * surface, and where on a picture a point of it is. */
 #if RT_SPHERES
 
 INLINE void keep_in_sphere_box(const rays *r, real3 center, real radius, meeting *m)

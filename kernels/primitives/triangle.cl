@@ -1,5 +1,5 @@
 /* Triangles: rays against them at each level but for the robust test (watertight.cl), one in all
- * lanes or a block in the lanes. */
+ * lanes or a block in the lanes; their surface, and where on a picture a point of it is. */
 #if RT_TRIANGLES
 
 /* From a corner's component in a block of triangles to the next corner's. */

@@ -103,7 +103,7 @@ INLINE void narrow(const bundle_axis *a, __global const float *lo, __global cons
  * walk alone are a tenth faster by. Elsewhere by way of bytes of ones and zeros: each keeps the bit
  * of its place, and a multiplication adds the eight up in the top byte. Little-endian, as every
  * OpenCL device there is. */
-#if defined(__AVX512DQ__) && HAS_BUILTIN(__builtin_ia32_cvtd2mask512) && RT_ACCURACY != 3
+#if defined(__AVX512DQ__) && HAS_BUILTIN(__builtin_ia32_cvtd2mask512) && RT_ACCURACY != RT_DOUBLE
 typedef int avx_mask __attribute__((vector_size(64)));
 INLINE int bits_of(mask16 m)
 {

@@ -2,7 +2,6 @@
 
 #include <float.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "bvh/box.h"
 #include "bvh/split.h"

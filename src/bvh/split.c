@@ -12,7 +12,6 @@
 #define DEPTH_OF_HEURISTIC 48
 
 #ifdef __SSE__
-
 #define FOUR_MIN _mm_min_ps
 #define FOUR_MAX _mm_max_ps
 #else

@@ -45,7 +45,7 @@ typedef struct rt_references {
 rt_range rt_range_whole(const rt_references *refs);
 
 /* Whether a range can be a leaf: few enough, and of one kind. */
-bool rt_range_is_leaf(const rt_references *refs, const rt_range *rt_range);
+bool rt_range_is_leaf(const rt_references *refs, const rt_range *range);
 
 /* Splits a range that is no leaf into two that are not empty; its references change places. */
 void rt_range_split(const rt_references *refs, const rt_range *range, rt_range sides[2]);
@@ -59,6 +59,6 @@ static inline int rt_reference_kind(const rt_references *refs, const rt_referenc
 }
 
 /* Half the surface area; 0 for an empty box. */
-float rt_box_half_area(const rt_box *rt_box);
+float rt_box_half_area(const rt_box *box);
 
 #endif

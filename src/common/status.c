@@ -3,7 +3,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Makes room for `extra` more bytes and a terminator. Memory may be what has run out, so a message
  * that finds no room is dropped; the code and the count still tell that there was one. */

@@ -48,8 +48,9 @@ static bool listed_name(const signature *s, cl_uint i, char *name)
 
 static bool name_of(const signature *s, cl_uint i, char *name)
 {
-    return clGetKernelArgInfo(s->kernel, i, CL_KERNEL_ARG_NAME, NAME_SIZE, name, NULL) ==
-               CL_SUCCESS ||
+    return (clGetKernelArgInfo(s->kernel, i, CL_KERNEL_ARG_NAME, NAME_SIZE, name, NULL) ==
+                CL_SUCCESS &&
+            name[0]) ||
            listed_name(s, i, name);
 }
 

@@ -4,7 +4,10 @@
 #include "render/state.h"
 #include "scene/camera.h"
 
-#define KNOWN_MOST (64 + 3 * RT_KIND_COUNT)
+/* Arrays between stages, those of the scene and values, and a few of each kind of primitive. */
+#define KNOWN_MOST (BUFFER_COUNT + 44 + 3 * RT_KIND_COUNT)
+
+_Static_assert(RT_EFFECT_COUNT < 31, "each effect has a bit of `flags`");
 
 typedef struct known {
     rt_argument list[KNOWN_MOST];
@@ -13,7 +16,9 @@ typedef struct known {
 
 static void know(known *k, const char *name, const void *value, size_t size)
 {
-    k->list[k->count++] = (rt_argument){name, value, size};
+    if (k->count < KNOWN_MOST)
+        k->list[k->count] = (rt_argument){name, value, size};
+    ++k->count;
 }
 
 #define KNOW(known, name, value) know(known, name, &(value), sizeof(value))
@@ -130,6 +135,9 @@ bool rt_renderer_set_arguments(rt_renderer *r, const rt_scene *scene, rt_status 
     know_tile(&k, r);
     know_scene(&k, &r->scene);
     know_values(&k, &v, r);
+    if (k.count > KNOWN_MOST)
+        return rt_status_fail(status, RT_ERROR_DEVICE, "rt: %zu arguments, room for %d", k.count,
+                              (int)KNOWN_MOST);
     for (int i = 0; i < RT_STAGE_COUNT; ++i) {
         cl_kernel kernel = r->kernels[i];
         r->changing[i] = (changing){-1, -1, -1};

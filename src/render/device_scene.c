@@ -1,7 +1,5 @@
 #include "render/device_scene.h"
 
-#include <stdlib.h>
-
 /* Where uploads go and by which queue. */
 typedef struct uploader {
     cl_context context;

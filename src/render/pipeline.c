@@ -3,7 +3,6 @@
 
 #include "render/arguments.h"
 #include "render/state.h"
-#include "scene/camera.h"
 
 /* Every stage, and the one whose kernel and arguments it has. */
 static const struct {

@@ -1,6 +1,5 @@
 #include "render/renderer.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #include "common/clock.h"

@@ -1,6 +1,7 @@
 /* The renderer from inside: what renderer.c, which makes it and draws pictures, pipeline.c, which
- * makes the stages and what lies between them, flight.c, which launches them, passes.c, which takes
- * a tile through them, and rays.c, which traces rays that a caller brings, all work on. */
+ * makes the stages and what lies between them, arguments.c, which tells kernels what they ask for,
+ * flight.c, which launches them, passes.c, which takes a tile through them, and rays.c, which
+ * traces rays that a caller brings, all work on. */
 #ifndef RT_RENDER_STATE_H
 #define RT_RENDER_STATE_H
 

@@ -36,7 +36,7 @@ static void kind_options(const rt_effects *effects, char *options, size_t size)
     static const char *const words[RT_KIND_COUNT] = {RT_KINDS(WORD)};
 #undef WORD
     size_t length = strlen(options);
-    for (int k = 0; k < RT_KIND_COUNT; ++k)
+    for (int k = 0; k < RT_KIND_COUNT && length < size; ++k)
         length += (size_t)snprintf(options + length, size - length, " -DRT_%s=%d", words[k],
                                    effects->mode == RT_EFFECTS_ALL || effects->has_kind[k]);
 }
@@ -52,7 +52,7 @@ static void effect_options(const rt_effects *effects, char *options, size_t size
     else if (effects->light_count <= LIGHTS_UNROLLED)
         length += (size_t)snprintf(options + length, size - length, " -DRT_LIGHTS=%d",
                                    effects->light_count);
-    for (int e = 0; e < RT_EFFECT_COUNT; ++e)
+    for (int e = 0; e < RT_EFFECT_COUNT && length < size; ++e)
         length += (size_t)snprintf(options + length, size - length, " -DRT_%s=%d", words[e],
                                    value_of(effects, (enum rt_effect)e));
 }

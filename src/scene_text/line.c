@@ -149,7 +149,7 @@ static bool read_value(rt_source *source, rt_line *l, size_t index)
     return false;
 }
 
-/* Appends "a, b, c" of the names that `name_at` gives until it returns NULL. */
+/* Writes "a, b, c" of the names, cut where there is no room. */
 static void list_names(char *text, size_t size, const char *const *names, size_t count)
 {
     size_t length = 0;

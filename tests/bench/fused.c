@@ -63,20 +63,21 @@ static bool set_arguments(const bench_fused *f, const rt_scene *scene, rt_status
     const struct {
         const void *value;
         size_t size;
-    } arguments[] = {{&no_tile, sizeof no_tile},
-                     {&frame, sizeof frame},
-                     {&s->nodes, sizeof s->nodes},
-                     {&s->order, sizeof s->order},
-                     {&s->blocks[0], sizeof s->blocks[0]},
-                     {&s->block_counts[0], sizeof s->block_counts[0]},
-                     {&s->blocks[1], sizeof s->blocks[1]},
-                     {&s->block_counts[1], sizeof s->block_counts[1]},
-                     {&s->counts[0], sizeof s->counts[0]},
-                     {&s->materials_of, sizeof s->materials_of},
-                     {&s->materials, sizeof s->materials},
-                     {&s->lights, sizeof s->lights},
-                     {&around, sizeof around},
-                     {&f->picture, sizeof f->picture}};
+    } arguments[] = {
+        {&no_tile, sizeof no_tile},
+        {&frame, sizeof frame},
+        {&s->nodes, sizeof s->nodes},
+        {&s->order, sizeof s->order},
+        {&s->blocks[RT_KIND_SPHERES], sizeof s->blocks[RT_KIND_SPHERES]},
+        {&s->block_counts[RT_KIND_SPHERES], sizeof s->block_counts[RT_KIND_SPHERES]},
+        {&s->blocks[RT_KIND_TRIANGLES], sizeof s->blocks[RT_KIND_TRIANGLES]},
+        {&s->block_counts[RT_KIND_TRIANGLES], sizeof s->block_counts[RT_KIND_TRIANGLES]},
+        {&s->counts[RT_KIND_SPHERES], sizeof s->counts[RT_KIND_SPHERES]},
+        {&s->materials_of, sizeof s->materials_of},
+        {&s->materials, sizeof s->materials},
+        {&s->lights, sizeof s->lights},
+        {&around, sizeof around},
+        {&f->picture, sizeof f->picture}};
     for (size_t i = 0; i < sizeof arguments / sizeof *arguments; ++i)
         if (!RT_CL(clSetKernelArg(f->kernel, (cl_uint)i, arguments[i].size, arguments[i].value),
                    status))

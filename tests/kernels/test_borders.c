@@ -2,7 +2,6 @@
  * Each was found as a change of a kernel that no other test noticed (make mutants). */
 #include "support/support.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 

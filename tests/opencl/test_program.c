@@ -181,7 +181,6 @@ static void errors_have_names(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-
         cmocka_unit_test(unknown_variants_do_not_build),
         cmocka_unit_test(a_log_names_the_file_and_line),
         cmocka_unit_test(a_missing_kernel_folder),

@@ -8,8 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/variant.h"
-
 /* Draws with the options and asserts that nothing is off. */
 static void assert_equal_to_scalar(const rt_scene *scene, const rt_render_options *options)
 {

@@ -10,7 +10,7 @@
 
 #include "mesh/mesh.h"
 
-static char mesh_path[64]; /* of the file that is read */
+static char mesh_path[512]; /* of the file that is read */
 
 static inline bool read_bytes(rt_mesh *mesh, const void *bytes, size_t length, rt_status *status)
 {
@@ -27,7 +27,7 @@ static inline rt_mesh read_good(const void *bytes, size_t length, const char *wa
     const bool good = read_bytes(&mesh, bytes, length, &status);
     if (!good)
         fail_msg("%s", status.text);
-    char expected[256] = "";
+    char expected[1024] = "";
     if (warning)
         snprintf(expected, sizeof expected, "%s%s\n", mesh_path, warning);
     assert_string_equal(status.text ? status.text : "", expected);
@@ -49,7 +49,7 @@ static inline void read_bad(const void *bytes, size_t length, const char *messag
     rt_mesh mesh;
     rt_status status;
     assert_false(read_bytes(&mesh, bytes, length, &status));
-    char expected[512];
+    char expected[1024];
     snprintf(expected, sizeof expected, "%s%s\n", mesh_path, message);
     assert_string_equal(status.text, expected);
     assert_int_equal(status.code, RT_ERROR_SCENE);

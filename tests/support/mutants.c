@@ -57,7 +57,7 @@ static char *mutated(const char *folder, const test_mutation *m)
 }
 
 /* RT_KERNELS before it was changed. */
-static char original[256];
+static char original[512];
 static bool is_changed;
 
 void test_mutate_kernels(test_mutant mutant)
@@ -65,13 +65,14 @@ void test_mutate_kernels(test_mutant mutant)
     const test_mutation *m = &test_mutations[mutant];
     const char *folder = getenv("RT_KERNELS");
     test_restore_kernels();
-    snprintf(original, sizeof original, "%s", folder ? folder : "");
+    assert_true(snprintf(original, sizeof original, "%s", folder ? folder : "") <
+                (int)sizeof original);
     if (!original[0])
         folder = "kernels";
     const char *to_folder = test_path("kernels");
     bool is_found = false;
     for (const char *const *name = rt_kernel_names; *name; ++name) {
-        char target[300];
+        char target[1024];
         const bool is_meant = strcmp(*name, m->file) == 0;
         char *text = is_meant ? mutated(folder, m) : read_kernel(folder, *name);
         snprintf(target, sizeof target, "%s/%s", to_folder, *name);

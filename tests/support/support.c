@@ -6,7 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include "common/file.h"
 #include "reference/scalar.h"
@@ -130,7 +129,7 @@ static char folder[256];
 static void remove_folder(void)
 {
     char command[600];
-    snprintf(command, sizeof command, "chmod -R u+w %s; rm -rf %s", folder, folder);
+    snprintf(command, sizeof command, "chmod -R u+w '%s'; rm -rf '%s'", folder, folder);
     if (system(command) != 0)
         fprintf(stderr, "%s is left behind\n", folder);
 }
@@ -139,7 +138,10 @@ const char *test_folder(void)
 {
     if (!folder[0]) {
         const char *where = getenv("TMPDIR");
-        snprintf(folder, sizeof folder, "%s/rt-test-XXXXXX", where && *where ? where : "/tmp");
+        const int length =
+            snprintf(folder, sizeof folder, "%s/rt-test-XXXXXX", where && *where ? where : "/tmp");
+        /* It goes into commands, between quotes. */
+        assert_true(length < (int)sizeof folder && !strchr(folder, '\''));
         assert_non_null(mkdtemp(folder));
         atexit(remove_folder);
     }
@@ -190,7 +192,7 @@ int test_run(const char *command, char *errors, size_t size)
 {
     const char *log = test_path("errors.log");
     char *line = NULL;
-    assert_true(asprintf(&line, "{ %s\n} 2>%s", command, log) > 0);
+    assert_true(asprintf(&line, "{ %s\n} 2>'%s'", command, log) > 0);
     const int result = system(line);
     free(line);
     if (errors) {
