@@ -204,7 +204,7 @@ lint: deps deps-lint ## the folders' order, documents, clang-format, cppcheck an
 	$(Q)printf '%s\n' $(SOURCES) | xargs -n 1 -P $$(nproc) sh -c \
 	    'clang-tidy --quiet "$$0" -- -std=c11 -I$(SRC)src -I$(SRC). $(PKG_CFLAGS) 2>/dev/null'
 
-check-kernels: deps-clang ## compiles every variant of the kernels with clang, warnings as errors
+check-kernels: deps-clang ## compiles variants of the kernels with clang, warnings as errors
 	@$(SRC)tests/check_kernels $(KERNELS)
 
 # ---- Measurements ----
