@@ -137,11 +137,11 @@ check: rt $(TESTS) ## builds and runs every test, and looks for no packages
 	@$(SRC)tests/links
 	@$(in_source) RT=$(call from_source,./rt) tests/run $(call from_source,$(TESTS))
 
-# The long forms: the hard cases with 40 times the rays, and every variant of the kernels.
+# The long forms: the hard cases with 40 times the rays, every lane width, build and mutant.
 LONG_TESTS = $(filter $(BUILD)/tests/hard/% $(patsubst $(SRC)%.c,$(BUILD)/%,\
              $(shell grep -l test_is_long $(SRC)tests/*/test_*.c)),$(TESTS))
 .PHONY: test-hard check-hard
-test-hard: deps ## runs the long forms: hard cases with 10 M rays, every variant of the kernels
+test-hard: deps ## runs the long forms: hard cases with 10 M rays, every lane width and mutant
 	$(remake) check-hard
 
 check-hard: rt $(LONG_TESTS)
