@@ -12,6 +12,24 @@ INLINE void keep_in_sphere_box(const rays *r, real3 center, real radius, meeting
     keep_in_box(r->origin, r->inverse, r->tmin, lo, hi, m);
 }
 
+/* The nearest root beyond tmin of dd t t - 2 b t + c = 0, of whose discriminant `root` is the root.
+ * Of the two, the one that adds numbers of like sign is q / dd; the other follows from their
+ * product c / dd. */
+INLINE void meet_at_root(const rays *r, real3 center, real radius, real b, real c, real root,
+                         meeting *m)
+{
+    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
+    const real q = b + SELECT(-root, root, ahead);
+    const real sum = DIVIDE(q, r->dd);
+    const real product = DIVIDE(c, q);
+    const real near = SELECT(sum, product, ahead);
+    const real far = SELECT(product, sum, ahead);
+    m->t = SELECT(far, near, MASK(near > r->tmin));
+    m->u = m->v = (real)0.0f;
+    m->det = (real)1.0f;
+    keep_in_sphere_box(r, center, radius, m);
+}
+
 #if RT_ACCURACY < RT_ROBUST
 /* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
  * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
@@ -27,20 +45,8 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask act
     m->on = active & MASK(discriminant >= (real)0.0f);
     if (!ANY(m->on))
         return 0;
-    /* Of the two roots, the one that adds numbers of like sign is q / dd; the other follows from
-     * their product c / dd. */
-    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
     const real root = ROOT(r->dd * discriminant);
-    const real q = b + SELECT(-root, root, ahead);
-    const real c = fma(-radius, radius, DOT(f, f));
-    const real sum = DIVIDE(q, r->dd);
-    const real product = DIVIDE(c, q);
-    const real near = SELECT(sum, product, ahead);
-    const real far = SELECT(product, sum, ahead);
-    m->t = SELECT(far, near, MASK(near > r->tmin));
-    m->u = m->v = (real)0.0f;
-    m->det = (real)1.0f;
-    keep_in_sphere_box(r, center, radius, m);
+    meet_at_root(r, center, radius, b, fma(-radius, radius, DOT(f, f)), root, m);
     return 1;
 }
 #else
@@ -103,16 +109,7 @@ INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask act
     const real by_product = difference_of_products(b, b, r->dd, c);
     const mask near_surface = MASK(fabs(c) * (real)4.0f < rr);
     const real root = ROOT(SELECT(discriminant, GREATER(by_product, (real)0.0f), near_surface));
-    const mask ahead = MASK(b >= (real)0.0f); /* for a zero of either sign */
-    const real q = b + SELECT(-root, root, ahead);
-    const real sum = DIVIDE(q, r->dd);
-    const real product = DIVIDE(c, q);
-    const real near = SELECT(sum, product, ahead);
-    const real far = SELECT(product, sum, ahead);
-    m->t = SELECT(far, near, MASK(near > r->tmin));
-    m->u = m->v = (real)0.0f;
-    m->det = (real)1.0f;
-    keep_in_sphere_box(r, center, radius, m);
+    meet_at_root(r, center, radius, b, c, root, m);
     return 1;
 }
 #endif
