@@ -152,14 +152,12 @@ typedef struct rt_turn {
     int first, count; /* of the light's samples, those that the probes are for */
 } rt_turn;
 
-/* Random numbers are numbered: what they are for is their dimension. At a light `k`, or for ambient
- * light, the rays before and the pixel's sample count too. */
-#define RT_DIMENSION_PIXEL 0u
-#define RT_DIMENSION_LENS 1u
-#define RT_DIMENSION_AMBIENT 8u
-#define RT_DIMENSION_LIGHT 16u
-#define RT_DIMENSION(base, bounce, sample)                                                         \
-    ((base) + 1024u * ((unsigned)(bounce) + 64u * (unsigned)(sample)))
+/* What random numbers are for: light k's shadow rays are RT_PURPOSE_LIGHT + k. */
+#define RT_PURPOSE_PIXEL 0u
+#define RT_PURPOSE_LENS 1u
+#define RT_PURPOSE_ROUTE 2u
+#define RT_PURPOSE_AMBIENT 3u
+#define RT_PURPOSE_LIGHT 4u
 
 /* What a ray on its way brings to a pixel: components of an array of numbers, of one of integers.
  * `weight` is what mirrors and surfaces let through, `tint` what fog and absorption do. The bounce

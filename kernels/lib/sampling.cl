@@ -1,5 +1,12 @@
 /* Random points, the same on every device: integers, then correctly rounded arithmetic. They depend
- * on the pixel, on what they are for and on the sample's number, and on nothing else. */
+ * on the picture's seed, the pixel, on what they are for and on the sample's number, and on nothing
+ * else.
+ *
+ * The points of one purpose are the first two dimensions of Sobol's sequence, in an order of their
+ * own and scrambled by Owen's nested permutations, both by hashing (Burley, Practical Hash-based
+ * Owen Scrambling, JCGT 9.4, 2020): each point alone is evenly distributed, so that a mean is right
+ * at any count, and every 2^k points from a multiple of 2^k on are one to each elementary interval,
+ * so that its error falls faster than with independent points. Purposes are scrambled apart. */
 
 #if RT_ACCURACY == RT_DOUBLE
 #define LITERAL(x) x
@@ -18,9 +25,43 @@ INLINE uint scramble(uint x)
     return x;
 }
 
-INLINE uint seed_of(int x, int y, uint dimension)
+/* Of a sequence: what a pixel's rays of that many bounces need random numbers for. */
+INLINE uint sequence_of(uint seed, int x, int y, uint purpose, int bounce)
 {
-    return scramble((uint)x + scramble((uint)y + scramble(dimension)));
+    const uint of_bounce = scramble((uint)bounce + scramble(seed ^ 0x9e3779b9u));
+    return scramble((uint)x + scramble((uint)y + scramble(purpose + of_bounce)));
+}
+
+INLINE uint reversed(uint x)
+{
+    x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+    return x >> 16 | x << 16;
+}
+
+/* Owen's scrambling of a fraction whose bits are reversed: each bit is turned by a hash of those
+ * that weigh more (Laine and Karras 2011; constants by Vegdahl). */
+INLINE uint permuted(uint x, uint seed)
+{
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= seed >> 16 | 1u;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+/* Pascal's matrix modulo 2 on the bits of x: a point of Sobol's second dimension, bits reversed. */
+INLINE uint pascal(uint x)
+{
+    x ^= (x & 0xaaaaaaaau) >> 1;
+    x ^= (x & 0xccccccccu) >> 2;
+    x ^= (x & 0xf0f0f0f0u) >> 4;
+    x ^= (x & 0xff00ff00u) >> 8;
+    x ^= (x & 0xffff0000u) >> 16;
+    return x;
 }
 
 /* 24 bits as a number in [0, 1). */
@@ -29,48 +70,12 @@ INLINE number unit_interval(uint bits)
     return (number)(int)(bits >> 8) * (number)0x1p-24f;
 }
 
-/* A set of samples, each in a cell of its own of the unit square; made once for many points. */
-typedef struct strata {
-    int columns, rows;
-    float inverse_columns;
-    uint cells, inverse_cells; /* the latter 2^32 / cells */
-} strata;
-
-INLINE void make_strata(int count, strata *g)
+/* Point `index` of a sequence, in the unit square. */
+INLINE void sample_point(uint sequence, uint index, number *u, number *v)
 {
-    g->columns = (int)sqrt((float)count);
-    while (g->columns * g->columns < count)
-        ++g->columns;
-    while ((g->columns - 1) * (g->columns - 1) >= count)
-        --g->columns;
-    g->rows = (count + g->columns - 1) / g->columns;
-    g->inverse_columns = 1.0f / (float)g->columns;
-    g->cells = (uint)(g->columns * g->rows);
-    g->inverse_cells = 0xffffffffu / g->cells;
-}
-
-/* bits % cells. There is no vector instruction for that: the quotient by a product is at most 2 too
- * small. */
-INLINE uint cell_of(const strata *g, uint bits)
-{
-    const uint quotient = (uint)(((ulong)bits * g->inverse_cells) >> 32);
-    uint rest = bits - quotient * g->cells;
-    rest -= rest >= g->cells ? g->cells : 0;
-    rest -= rest >= g->cells ? g->cells : 0;
-    return rest;
-}
-
-/* Sample `s` of a set. Dimensions but the pixel's go through the cells from one of their own, or
- * pixel and lens would move together. */
-INLINE void stratified(const strata *g, int s, uint seed, uint dimension, number *u, number *v)
-{
-    uint cell = (uint)s + (dimension == RT_DIMENSION_PIXEL ? 0 : cell_of(g, seed));
-    cell -= cell >= g->cells ? g->cells : 0;
-    /* Row and column; half a cell keeps the product's rounding from mattering. */
-    const int row = (int)(((float)(int)cell + 0.5f) * g->inverse_columns);
-    const int column = (int)cell - row * g->columns;
-    *u = DIVIDE_1((number)column + unit_interval(scramble(seed + 2 * (uint)s)), (number)g->columns);
-    *v = DIVIDE_1((number)row + unit_interval(scramble(seed + 2 * (uint)s + 1)), (number)g->rows);
+    const uint place = reversed(permuted(reversed(index), scramble(sequence)));
+    *u = unit_interval(reversed(permuted(place, scramble(sequence + 1u))));
+    *v = unit_interval(reversed(permuted(pascal(place), scramble(sequence + 2u))));
 }
 
 /* From the unit square to the unit disk, equal areas to equal areas (Shirley and Chiu 1997). Sine

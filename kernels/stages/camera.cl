@@ -27,22 +27,18 @@ INLINE void begin_path(__global int *home, __global number *paths, __global int 
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
-          const rt_turn turn, const int samples, const int flags, __global float *colors,
+          const rt_turn turn, const uint seed, const int flags, __global float *colors,
           __global int *home, __global number *paths, __global int *marks)
 {
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
+    const int x = tile.x + p.column, y = tile.y + p.row;
     /* Whole numbers, exact in float; the pixel size is in the frame's vectors. */
-    number across = (number)(2 * (tile.x + p.column) + 1 - frame.width);
-    number upward = (number)(frame.height - 1 - 2 * (tile.y + p.row));
-    strata set;
-    if (RT_ANTIALIAS || RT_LENS)
-        make_strata(samples, &set);
+    number across = (number)(2 * x + 1 - frame.width);
+    number upward = (number)(frame.height - 1 - 2 * y);
     if (ON(ANTIALIAS)) {
         number u, v;
-        stratified(&set, turn.sample,
-                   seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_PIXEL),
-                   RT_DIMENSION_PIXEL, &u, &v);
+        sample_point(sequence_of(seed, x, y, RT_PURPOSE_PIXEL, 0), (uint)turn.sample, &u, &v);
         const number dx = filtered(u, flags & RT_FLAG_TENT);
         const number dy = filtered(v, flags & RT_FLAG_TENT);
         across = across + (dx + dx);
@@ -56,8 +52,7 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     vec3 origin = {frame.ox, frame.oy, frame.oz};
     if (ON(LENS)) {
         number u, v, dx, dy;
-        stratified(&set, turn.sample, seed_of(tile.x + p.column, tile.y + p.row, RT_DIMENSION_LENS),
-                   RT_DIMENSION_LENS, &u, &v);
+        sample_point(sequence_of(seed, x, y, RT_PURPOSE_LENS, 0), (uint)turn.sample, &u, &v);
         disk(u, v, &dx, &dy);
         const vec3 lens_right = {frame.lens_right_x, frame.lens_right_y, frame.lens_right_z};
         const vec3 lens_up = {frame.lens_up_x, frame.lens_up_y, frame.lens_up_z};

@@ -19,13 +19,11 @@ INLINE void store_no_probe(__global number *probes, size_t step, size_t j)
     store_probe(probes, step, j, &nowhere, &ahead, -1.0f);
 }
 
-/* The samples that a launch is for. */
+/* The samples that a launch is for: of each pixel's `count` a ray, one. */
 typedef struct probe_set {
-    strata cells;
     rt_tile tile;
-    uint dimension;
-    int sample;       /* of the set */
-    int pixel_sample; /* of the pixel */
+    uint seed, purpose;
+    uint index; /* among all of a pixel's, over all of its rays of as many bounces */
     __global const int *home;
     __global const int *marks;
 } probe_set;
@@ -36,18 +34,20 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
     const int slot = RT_NEXT ? p->home[i] : (int)i;
     const int bounce = RT_NEXT ? p->marks[RT_MARK_BOUNCE * step + (size_t)slot] : 0;
     const pixel at = slot_pixel(p->tile, slot);
-    const uint dimension = RT_DIMENSION(p->dimension, bounce, p->pixel_sample);
+    const uint sequence =
+        sequence_of(p->seed, p->tile.x + at.column, p->tile.y + at.row, p->purpose, bounce);
     number u, v;
-    stratified(&p->cells, p->sample, seed_of(p->tile.x + at.column, p->tile.y + at.row, dimension),
-               dimension, &u, &v);
+    sample_point(sequence, p->index, &u, &v);
     disk(u, v, x, y);
 }
 
-#define PROBE_SET_PARAMETERS const rt_tile tile, __global const int *home, __global const int *marks
-#define PROBE_SET(base, turn)                                                                      \
+#define PROBE_SET_PARAMETERS                                                                       \
+    const rt_tile tile, const uint seed, __global const int *home, __global const int *marks
+#define PROBE_SET(what, turn, samples)                                                             \
     {                                                                                              \
-        .tile = tile, .dimension = (base), .sample = (turn).first + SAMPLE_OF(turn),               \
-        .pixel_sample = (turn).sample, .home = home, .marks = marks                                \
+        .tile = tile, .seed = seed, .purpose = (what),                                             \
+        .index = (uint)((turn).sample * (samples) + (turn).first + SAMPLE_OF(turn)), .home = home, \
+        .marks = marks                                                                             \
     }
 
 /* A work-item's first ray and first probe, and which of the launch's samples its probes are. */
@@ -104,9 +104,7 @@ rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *l
     const traced w = TRACED;
     __global const rt_light *light = lights + turn.light;
     PROBE_ITEM(turn);
-    probe_set set = PROBE_SET(RT_DIMENSION_LIGHT + (uint)turn.light, turn);
-    if (RT_SOFT_SHADOWS)
-        make_strata(light->samples, &set.cells);
+    const probe_set set = PROBE_SET(RT_PURPOSE_LIGHT + (uint)turn.light, turn, light->samples);
     if (!any_hit(hit_index, first)) {
         EACH_RAY(k)
         store_no_probe(probes, w.step, first_probe + k);
@@ -151,8 +149,7 @@ rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
 {
     const traced w = TRACED;
     PROBE_ITEM(turn);
-    probe_set set = PROBE_SET(RT_DIMENSION_AMBIENT, turn);
-    make_strata(crevice.samples, &set.cells);
+    const probe_set set = PROBE_SET(RT_PURPOSE_AMBIENT, turn, crevice.samples);
     if (!any_hit(hit_index, first)) {
         EACH_RAY(k)
         store_no_probe(probes, w.step, first_probe + k);

@@ -25,21 +25,23 @@ typedef struct pair {
 
 /* ---- sampling.c ---- */
 
-/* Which samples are meant: those of a pixel, of its `sample`th ray, after `step` mirror or
- * refracted rays in a row. */
+/* Which samples are meant: those of a picture's pixel, of its `sample`th ray, after `step` mirror
+ * or refracted rays in a row. */
 typedef struct stream {
-    uint32_t x, y, sample, step;
+    uint32_t x, y, sample, step, seed;
 } stream;
 
-/* What a set of samples is for. Sets along a path are told apart by NAME(dimension_at) besides; the
- * shadow rays of light k are DIMENSION_LIGHT + k. */
-enum { DIMENSION_PIXEL = 0, DIMENSION_LENS = 1, DIMENSION_OCCLUSION = 8, DIMENSION_LIGHT = 16 };
-uint32_t NAME(dimension_at)(const stream *s, uint32_t dimension);
+/* What samples are for; the shadow rays of light k are FOR_LIGHT + k. */
+enum { FOR_PIXEL, FOR_LENS, FOR_ROUTE, FOR_OCCLUSION, FOR_LIGHT };
 
 uint32_t NAME(mix)(uint32_t x);
 
-/* A point of the unit square: sample number `sample` of `count`, each in a cell of its own. */
-pair NAME(stratified)(const stream *s, uint32_t dimension, uint32_t count, uint32_t sample);
+/* Point `index` of a sequence in the unit square. The sequence is the stream's for that purpose,
+ * whatever `sample` is: of several points a sample, the numbers run on from sample to sample. */
+pair NAME(sample_point)(const stream *s, uint32_t purpose, uint32_t index);
+
+/* Point `index` of Sobol's sequence in two dimensions, as fractions of 2^32. */
+void NAME(sobol)(uint32_t index, uint32_t point[2]);
 
 /* The way from the pixel's centre, in pixels, of a point in [0, 1]. */
 real NAME(filtered)(enum rt_filter filter, real t);

@@ -1,6 +1,7 @@
 /* The sample points of the scalar reference: numbers that look random and are not. They come from
- * the pixel and the sample's number alone, in whole numbers first and then in correctly rounded
- * arithmetic, so that they are the same wherever and in whatever order they are computed. */
+ * the picture's seed, the pixel and the sample's number alone, in whole numbers first and then in
+ * correctly rounded arithmetic, so that they are the same wherever and in whatever order they are
+ * computed. */
 #include "reference/effects.h"
 
 /* Wellons' lowbias32: every bit of x reaches every bit of the result. */
@@ -14,9 +15,11 @@ uint32_t NAME(mix)(uint32_t x)
     return x;
 }
 
-static uint32_t seed_of(const stream *s, uint32_t dimension)
+/* One sequence for each pixel, purpose, and number of rays before. */
+static uint32_t sequence_of(const stream *s, uint32_t purpose)
 {
-    return NAME(mix)(s->x + NAME(mix)(s->y + NAME(mix)(dimension)));
+    const uint32_t picture = NAME(mix)(s->seed ^ UINT32_C(0x9e3779b9));
+    return NAME(mix)(s->x + NAME(mix)(s->y + NAME(mix)(purpose + NAME(mix)(s->step + picture))));
 }
 
 /* From [0, 1): as many bits as a float holds. */
@@ -25,25 +28,52 @@ static real fraction(uint32_t bits)
     return (real)(bits >> 8) * (real)0x1p-24;
 }
 
-pair NAME(stratified)(const stream *s, uint32_t dimension, uint32_t count, uint32_t sample)
+static uint32_t bits_reversed(uint32_t x)
 {
-    uint32_t columns = 1;
-    while (columns * columns < count)
-        ++columns;
-    const uint32_t rows = (count + columns - 1) / columns;
-    const uint32_t seed = seed_of(s, dimension);
-    /* Sample s of the pixel and sample s of the lens must not always lie in the same corner. */
-    const uint32_t offset = dimension == DIMENSION_PIXEL ? 0 : seed % (columns * rows);
-    const uint32_t cell = (sample + offset) % (columns * rows);
-    const uint32_t column = cell % columns, row = cell / columns;
-    const real x = (real)column + fraction(NAME(mix)(seed + 2 * sample));
-    const real y = (real)row + fraction(NAME(mix)(seed + 2 * sample + 1));
-    return (pair){x / (real)columns, y / (real)rows};
+    uint32_t result = 0;
+    for (int i = 0; i < 32; ++i)
+        result |= (x >> i & 1) << (31 - i);
+    return result;
 }
 
-uint32_t NAME(dimension_at)(const stream *s, uint32_t dimension)
+/* Owen's scrambling by a hash (Laine and Karras 2011; constants by Vegdahl): each bit of the
+ * fraction is turned or not by a function of the bits before it. */
+static uint32_t owen_scrambled(uint32_t fraction_bits, uint32_t seed)
 {
-    return dimension + 1024 * (s->step + 64 * s->sample);
+    uint32_t x = bits_reversed(fraction_bits);
+    x ^= x * UINT32_C(0x3d20adea);
+    x += seed;
+    x *= seed >> 16 | 1;
+    x ^= x * UINT32_C(0x05526c56);
+    x ^= x * UINT32_C(0x53a22864);
+    return bits_reversed(x);
+}
+
+/* Sobol's first two dimensions by their direction numbers (Bratley and Fox 1988): those of the
+ * first are single bits, those of the second follow from the polynomial x + 1. */
+void NAME(sobol)(uint32_t index, uint32_t point[2])
+{
+    uint32_t direction = UINT32_C(1) << 31;
+    point[0] = point[1] = 0;
+    for (int k = 0; k < 32; ++k) {
+        if (index >> k & 1) {
+            point[0] ^= UINT32_C(1) << (31 - k);
+            point[1] ^= direction;
+        }
+        direction ^= direction >> 1;
+    }
+}
+
+/* The order is scrambled as the points are, which keeps runs of 2^k points together (Burley 2020).
+ */
+pair NAME(sample_point)(const stream *s, uint32_t purpose, uint32_t index)
+{
+    const uint32_t sequence = sequence_of(s, purpose);
+    const uint32_t place = owen_scrambled(index, NAME(mix)(sequence));
+    uint32_t point[2];
+    NAME(sobol)(place, point);
+    return (pair){fraction(owen_scrambled(point[0], NAME(mix)(sequence + 1))),
+                  fraction(owen_scrambled(point[1], NAME(mix)(sequence + 2)))};
 }
 
 /* Inverts the filter's integral, so that samples of equal weight follow its shape. */

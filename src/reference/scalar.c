@@ -57,10 +57,9 @@ static eye eye_of(const rt_scene *scene)
 /* A single sample goes through the pixel's centre. */
 static ray primary_ray(const rt_scene *scene, const eye *e, const stream *samples)
 {
-    const uint32_t count = (uint32_t)scene->samples, sample = samples->sample;
     pair offset = {0, 0};
-    if (count > 1) {
-        const pair p = NAME(stratified)(samples, DIMENSION_PIXEL, count, sample);
+    if (scene->samples > 1) {
+        const pair p = NAME(sample_point)(samples, FOR_PIXEL, samples->sample);
         offset = (pair){NAME(filtered)(scene->filter, p.x), NAME(filtered)(scene->filter, p.y)};
     }
     /* In half pixels from the middle of the picture; rows count downwards. */
@@ -69,7 +68,7 @@ static ray primary_ray(const rt_scene *scene, const eye *e, const stream *sample
     const vec through = add_scaled(e->right, across, add_scaled(e->up, upward, e->forward));
     if (!(scene->camera.aperture > 0.0f))
         return (ray){e->origin, unit(through), 0, INFINITY};
-    const pair p = NAME(disk)(NAME(stratified)(samples, DIMENSION_LENS, count, sample));
+    const pair p = NAME(disk)(NAME(sample_point)(samples, FOR_LENS, samples->sample));
     const vec lens = add_scaled(e->lens_up, p.y, times(e->lens_right, p.x));
     const vec direction = add_scaled(through, e->focus, times(lens, -1));
     return (ray){plus(e->origin, lens), unit(direction), 0, INFINITY};
@@ -81,7 +80,7 @@ static void draw_pixel(const picture *p, int x, int y)
     const real count = (real)p->scene->samples;
     vec sum = {0, 0, 0};
     for (int sample = 0; sample < p->scene->samples; ++sample) {
-        const stream samples = {(uint32_t)x, (uint32_t)y, (uint32_t)sample, 0};
+        const stream samples = {(uint32_t)x, (uint32_t)y, (uint32_t)sample, 0, p->scene->seed};
         const ray r = primary_ray(p->scene, &p->e, &samples);
         const hit h = NAME(closest)(&p->world, &r);
         sum = plus(sum, NAME(radiance)(&p->world, &r, &h, &samples));

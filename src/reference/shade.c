@@ -51,10 +51,10 @@ static real visibility(const scalar_world *world, int index, const surface *s, v
     vec t1, t2;
     NAME(axes_about)(to_light, &t1, &t2);
     const uint32_t count = (uint32_t)light->samples;
-    const uint32_t dimension = NAME(dimension_at)(samples, DIMENSION_LIGHT + (uint32_t)index);
+    const uint32_t purpose = FOR_LIGHT + (uint32_t)index, first = samples->sample * count;
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        const pair p = NAME(disk)(NAME(stratified)(samples, dimension, count, i));
+        const pair p = NAME(disk)(NAME(sample_point)(samples, purpose, first + i));
         const vec across = add_scaled(t1, (real)light->radius * p.x, center);
         const vec target = add_scaled(t2, (real)light->radius * p.y, across);
         open += !is_hidden(world, from, target);
@@ -69,11 +69,11 @@ static real openness(const scalar_world *world, const surface *s, const stream *
     if (scene->occlusion_samples == 0)
         return 1;
     const uint32_t count = (uint32_t)scene->occlusion_samples;
-    const uint32_t dimension = NAME(dimension_at)(samples, DIMENSION_OCCLUSION);
+    const uint32_t first = samples->sample * count;
     const vec from = NAME(start)(s, s->facing);
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        const pair square = NAME(stratified)(samples, dimension, count, i);
+        const pair square = NAME(sample_point)(samples, FOR_OCCLUSION, first + i);
         const vec direction = NAME(hemisphere)(square, s->normal);
         if (!(dot(direction, s->facing) > 0))
             continue; /* a smooth normal leans over: this way lies the surface itself */

@@ -5,7 +5,7 @@
 #include "scene/camera.h"
 
 /* Arrays between stages, those of the scene and values, and a few of each kind of primitive. */
-#define KNOWN_MOST (BUFFER_COUNT + 44 + 3 * RT_KIND_COUNT)
+#define KNOWN_MOST (BUFFER_COUNT + 45 + 3 * RT_KIND_COUNT)
 
 _Static_assert(RT_EFFECT_COUNT < 31, "each effect has a bit of `flags`");
 
@@ -85,6 +85,7 @@ typedef struct values {
     rt_fog fog;
     rt_crevice crevice;
     cl_int light_count, samples, depth, flags;
+    cl_uint seed;
     /* Set before each launch. */
     rt_tile tile;
     rt_turn turn;
@@ -104,6 +105,7 @@ static values values_of(const rt_renderer *r, const rt_scene *scene)
         .light_count = r->light_count,
         .samples = r->samples,
         .depth = r->depth,
+        .seed = scene->seed,
         .flags = flags_of(r) | (scene->filter == RT_FILTER_TENT ? RT_FLAG_TENT : 0),
     };
 }
@@ -121,6 +123,7 @@ static void know_values(known *k, const values *v, const rt_renderer *r)
     KNOW(k, "light_count", v->light_count);
     KNOW(k, "samples", v->samples);
     KNOW(k, "depth", v->depth);
+    KNOW(k, "seed", v->seed);
     KNOW(k, "flags", v->flags);
     KNOW(k, "unit_exponent", r->unit_exponent);
     KNOW(k, "tile", v->tile);

@@ -53,6 +53,7 @@ typedef struct rt_scene {
     int unit_exponent;
     int samples; /* rays a pixel, 1 up */
     enum rt_filter filter;
+    uint32_t seed; /* of the sample points: another one gives other noise */
     int depth; /* mirror and refracted rays in a row, at most */
     rt_camera camera;
     rt_vec3 background, ambient;

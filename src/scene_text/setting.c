@@ -4,13 +4,14 @@
 
 bool rt_scene_apply_image(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    enum { WIDTH, HEIGHT, SAMPLES, FILTER };
+    enum { WIDTH, HEIGHT, SAMPLES, FILTER, SEED };
     rt_scene *scene = p->scene;
     scene->width = rt_value_count(&l->values[WIDTH], scene->width);
     scene->height = rt_value_count(&l->values[HEIGHT], scene->height);
     scene->samples = rt_value_count(&l->values[SAMPLES], scene->samples);
     if (l->values[FILTER].given)
         scene->filter = l->values[FILTER].choice == 0 ? RT_FILTER_BOX : RT_FILTER_TENT;
+    scene->seed = (uint32_t)rt_value_count(&l->values[SEED], (int)scene->seed);
     scene->image_place = rt_source_place(src);
     const long long pixels = (long long)scene->width * scene->height;
     return pixels <= RT_IMAGE_PIXELS_MAX ||

@@ -8,30 +8,69 @@
 
 #define PI 3.14159265358979323846
 
-/* Each cell of the grid holds one sample at most, and exactly one where the count fills it. */
-static void every_cell_holds_one_sample(void **state)
+/* Sobol's sequence in two dimensions by its definition: the base-2 digits of the index times
+ * Pascal's matrix modulo 2, mirrored at the point. */
+static void sobol_is_pascal_s_triangle(void **state)
 {
     (void)state;
-    static const struct {
-        uint32_t count, columns, rows;
-    } sets[] = {{1, 1, 1},     {2, 2, 1},      {4, 2, 2},     {5, 3, 2},  {6, 3, 2},
-                {9, 3, 3},     {12, 4, 3},     {16, 4, 4},    {20, 5, 4}, {64, 8, 8},
-                {100, 10, 10}, {1000, 32, 32}, {4096, 64, 64}};
-    for (size_t i = 0; i < sizeof sets / sizeof *sets; ++i)
-        for (uint32_t dimension = 0; dimension < 40; ++dimension) {
-            const stream s = {31 * dimension, 7, 0, 0};
-            static unsigned char taken[4096];
-            memset(taken, 0, sizeof taken);
-            for (uint32_t k = 0; k < sets[i].count; ++k) {
-                const pair p = rt_scalar_double_stratified(&s, dimension, sets[i].count, k);
-                assert_true(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-                const size_t cell = (size_t)(p.y * sets[i].rows) * sets[i].columns +
-                                    (size_t)(p.x * sets[i].columns);
-                assert_int_equal(taken[cell]++, 0);
-                if (dimension == DIMENSION_PIXEL)
-                    assert_int_equal(cell, k);
+    for (uint32_t i = 0; i < 4096; ++i) {
+        const uint32_t index = i * UINT32_C(1048583);
+        uint32_t x = 0, y = 0, point[2];
+        for (uint32_t row = 0; row < 32; ++row) {
+            uint32_t sum = 0;
+            /* The binomial coefficient (column over row) is odd where row's bits are in column. */
+            for (uint32_t column = 0; column < 32; ++column)
+                sum += (index >> column & 1) * ((column & row) == row);
+            x |= (index >> row & 1) << (31 - row);
+            y |= (sum & 1) << (31 - row);
+        }
+        rt_scalar_double_sobol(index, point);
+        assert_int_equal(point[0], x);
+        assert_int_equal(point[1], y);
+    }
+}
+
+/* Of 2^k points from a multiple of 2^k on, each of the 2^k rectangles of any shape that are
+ * 2^-a by 2^(a-k) holds one: that is what makes means of them good. */
+static void every_elementary_interval_holds_one_point(void **state)
+{
+    (void)state;
+    for (uint32_t purpose = 0; purpose < 20; ++purpose)
+        for (int k = 0; k <= 12; ++k) {
+            const stream s = {31 * purpose, 7, 0, purpose % 3, purpose};
+            const uint32_t count = UINT32_C(1) << k, first = count * (purpose % 5);
+            for (int a = 0; a <= k; ++a) {
+                static unsigned char taken[4096];
+                memset(taken, 0, sizeof taken);
+                for (uint32_t i = 0; i < count; ++i) {
+                    const pair p = rt_scalar_double_sample_point(&s, purpose, first + i);
+                    assert_true(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+                    const size_t column = (size_t)ldexp(p.x, a), row = (size_t)ldexp(p.y, k - a);
+                    assert_int_equal(taken[(row << a) + column]++, 0);
+                }
             }
         }
+}
+
+/* Each point alone is evenly distributed over the pixels: no count of samples leaves anything out.
+ * The chi-squared of 64 cells has the mean 63 and the deviation 11.2. */
+static void every_point_is_evenly_distributed(void **state)
+{
+    (void)state;
+    const uint32_t side = 128;
+    for (uint32_t index = 0; index < 100; index += 1 + index / 16) {
+        uint32_t counts[64] = {0};
+        for (uint32_t i = 0; i < side * side; ++i) {
+            const stream s = {i % side, i / side, 0, 0, 0};
+            const pair p = rt_scalar_double_sample_point(&s, FOR_LENS, index);
+            ++counts[(int)(8 * p.x) + 8 * (int)(8 * p.y)];
+        }
+        const double expected = side * side / 64.0;
+        double chi = 0;
+        for (int c = 0; c < 64; ++c)
+            chi += (counts[c] - expected) * (counts[c] - expected) / expected;
+        assert_true(chi > 63 - 4 * 11.2 && chi < 63 + 4 * 11.2);
+    }
 }
 
 /* Sets of neighbours, of other uses and of other rays have nothing to do with each other: the
@@ -40,19 +79,18 @@ static void sets_are_independent(void **state)
 {
     (void)state;
     const uint32_t count = 10000;
-    for (int kind = 0; kind < 5; ++kind) {
+    for (int kind = 0; kind < 6; ++kind) {
         double sum = 0, squares = 0;
         for (uint32_t i = 0; i < count; ++i) {
-            stream a = {i % 100, i / 100, 0, 0}, b = a;
-            uint32_t dimension = DIMENSION_LIGHT;
+            stream a = {i % 100, i / 100, 0, 0, 0}, b = a;
             b.x += kind == 0;
             b.y += kind == 1;
-            b.sample += kind == 2;
-            b.step += kind == 3;
-            const uint32_t da = rt_scalar_double_dimension_at(&a, dimension);
-            const uint32_t db = rt_scalar_double_dimension_at(&b, dimension + (kind == 4));
-            const double x = rt_scalar_double_stratified(&a, da, 1, 0).x - 0.5;
-            const double y = rt_scalar_double_stratified(&b, db, 1, 0).x - 0.5;
+            b.step += kind == 2;
+            b.seed += kind == 3;
+            const uint32_t purpose = FOR_LIGHT + (kind == 4);
+            const double x = rt_scalar_double_sample_point(&a, FOR_LIGHT, 0).x - 0.5;
+            const pair other = rt_scalar_double_sample_point(&b, purpose, 0);
+            const double y = (kind == 5 ? other.y : other.x) - 0.5;
             sum += x * y;
             squares += x * x;
         }
@@ -182,11 +220,11 @@ static void the_hemisphere_is_cosine_weighted(void **state)
     const uint32_t count = 4096;
     const vec normals[] = {{0, 0, 1}, {0, 0, -1}, {0.6, 0, -0.8}, {0.48, -0.6, 0.64}};
     for (size_t i = 0; i < sizeof normals / sizeof *normals; ++i) {
-        const stream s = {(uint32_t)i, 5, 0, 0};
+        const stream s = {(uint32_t)i, 5, 0, 0, 0};
         double mean = 0, square = 0;
         vec sum = {0, 0, 0};
         for (uint32_t k = 0; k < count; ++k) {
-            const pair p = rt_scalar_double_stratified(&s, DIMENSION_OCCLUSION, count, k);
+            const pair p = rt_scalar_double_sample_point(&s, FOR_OCCLUSION, k);
             const vec d = rt_scalar_double_hemisphere(p, normals[i]);
             const double cosine = dot(d, normals[i]);
             assert_near(dot(d, d), 1.0, 1e-12);
@@ -204,7 +242,9 @@ static void the_hemisphere_is_cosine_weighted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_cell_holds_one_sample),
+        cmocka_unit_test(sobol_is_pascal_s_triangle),
+        cmocka_unit_test(every_elementary_interval_holds_one_point),
+        cmocka_unit_test(every_point_is_evenly_distributed),
         cmocka_unit_test(sets_are_independent),
         cmocka_unit_test(mixing_spreads_every_bit),
         cmocka_unit_test(filters_have_their_mean_and_variance),
