@@ -57,7 +57,7 @@ FLAGS := $(BUILD)/flags
 KERNELS := $(addprefix $(SRC)kernels/,effects.def primitives/kinds.h options.h layout.h margins.h \
            $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
            primitives/intersect.cl traversal/packet.cl \
-           $(addprefix shading/,surface.cl pattern.cl) \
+           $(addprefix shading/,surface.cl pattern.cl media.cl) \
            $(addprefix primitives/,sphere.cl watertight.cl triangle.cl) traversal/traverse.cl \
            $(addprefix stages/,camera.cl trace.cl probe.cl path.cl shade.cl queue.cl resolve.cl))
 

@@ -159,20 +159,42 @@ typedef struct rt_turn {
 #define RT_PURPOSE_AMBIENT 3u
 #define RT_PURPOSE_LIGHT 4u
 
+/* What fills the inside of bodies: the index of refraction, and the part of the light lost per unit
+ * of length (Beer). Number 0 of the scene's media is the open. */
+typedef struct rt_medium {
+    float ior;
+    float absorb_r, absorb_g, absorb_b;
+} rt_medium;
+
+/* The media of the bodies that a ray is inside of, the innermost in the lowest bits, as many as go
+ * into 64 bits (kernels/shading/media.cl). */
+#ifdef __OPENCL_C_VERSION__
+#define RT_64_BITS ulong
+#else
+#include <stdint.h>
+#define RT_64_BITS uint64_t
+#endif
+typedef struct rt_nesting {
+    RT_64_BITS eye;  /* of what the eye is inside */
+    RT_64_BITS ones; /* the lowest bit of each place */
+    int bits;        /* of a place */
+    int padding;
+} rt_nesting;
+
 /* What a ray on its way brings to a pixel: components of an array of numbers, of one of integers.
  * `weight` is what mirrors and surfaces let through, `tint` what fog and absorption do. The bounce
- * counts the rays before; the medium is the material that the ray is in, RT_OUTSIDE for none. */
+ * counts the rays before. */
 #define RT_PATH_WEIGHT 0
 #define RT_PATH_TINT_R 1
 #define RT_PATH_TINT_G 2
 #define RT_PATH_TINT_B 3
 #define RT_PATH_COMPONENTS 4
 #define RT_MARK_BOUNCE 0
-#define RT_MARK_MEDIUM 1
-#define RT_MARK_IS_REFRACTED 2
-#define RT_MARK_WAITING 3 /* mirror rays that wait */
-#define RT_MARK_COMPONENTS 4
-#define RT_OUTSIDE (-1)
+#define RT_MARK_INSIDE_LOW 1 /* of what: rt_nesting */
+#define RT_MARK_INSIDE_HIGH 2
+#define RT_MARK_IS_REFRACTED 3
+#define RT_MARK_WAITING 4 /* mirror rays that wait */
+#define RT_MARK_COMPONENTS 5
 
 /* A mirror ray that waits until the refracted ray of the same hit, and all that comes of it, is
  * through. */
@@ -182,12 +204,25 @@ typedef struct rt_turn {
 #define RT_WAITING_TINT_R 7
 #define RT_WAITING_COMPONENTS 10
 #define RT_WAITING_BOUNCE 0
-#define RT_WAITING_MEDIUM 1
-#define RT_WAITING_MARKS 2
+#define RT_WAITING_INSIDE_LOW 1
+#define RT_WAITING_INSIDE_HIGH 2
+#define RT_WAITING_MARKS 3
 
-/* Mirror rays that a path has waiting at most: at RT_WEIGHT_LEAST of margins.h both rays of a hit
- * can be worth following at so many of its hits. */
-#define RT_WAITING_MOST 511
+/* Mirror rays that a path has waiting at most: one a bounce, each of a quantum's weight or more
+ * (RT_QUANTUM of margins.h), and all of a path's rays together weigh 1: after 28 bounces that is
+ * used up. */
+#define RT_WAITING_MOST 28
+
+/* What is counted of each slot's rays, in 64 bits each: probes cast for shadows and for ambient
+ * light, rays that end because they may not go on farther and the part of their pixel's light that
+ * they would have brought, in RT_CUT_UNIT of white, and rays that Russian roulette ended. */
+#define RT_TALLY_SHADOW 0
+#define RT_TALLY_AMBIENT 1
+#define RT_TALLY_CUT 2
+#define RT_TALLY_CUT_PART 3
+#define RT_TALLY_ENDED 4
+#define RT_TALLY_COMPONENTS 5
+#define RT_CUT_UNIT 0x1p-24f
 
 /* What rt_count tells of each block of next rays. */
 #define RT_COUNT_ALL 0

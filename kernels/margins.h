@@ -1,6 +1,6 @@
-/* How much room rounding is given, and what is too little to follow. The tree is made with the
- * box's margin too; the reference has constants of its own (src/reference/margins.h), so that it
- * notices where one of these is wrong. */
+/* How much room rounding is given, and what is too little to follow for sure. The tree is made with
+ * the box's margin too; the reference has constants of its own (src/reference/margins.h), so that
+ * it notices where one of these is wrong. */
 #ifndef RT_MARGINS_H
 #define RT_MARGINS_H
 
@@ -17,8 +17,12 @@
 #define RT_SLAB_MARGIN 1.0000005f
 #define RT_SLAB_MARGIN_ROBUST 0x1.00001p0f
 
-/* Rays that would bring less than this part are not followed: less than half of an 8-bit step of
- * white. */
+/* A part of white that cannot be seen: less than half of an 8-bit step. A ray that would bring less
+ * lives on by chance, and then brings so much (Arvo and Kirk 1990). */
 #define RT_WEIGHT_LEAST (1.0f / 512.0f)
+/* Where light splits, a part that weighs less than this is followed by chance, and then weighs so
+ * much. It doubles every four bounces, up to all of the light, so that what is followed stays few:
+ * at 36 bounces it is one ray. */
+#define RT_QUANTUM(bounce) (RT_WEIGHT_LEAST * (float)(1 << ((bounce) < 36 ? (bounce) / 4 : 9)))
 
 #endif

@@ -12,8 +12,8 @@ INLINE number filtered(number t, const int tent)
 }
 
 /* Ray i is its pixel's own, and nothing has been lost of it. */
-INLINE void begin_path(__global int *home, __global number *paths, __global int *marks, size_t step,
-                       size_t i)
+INLINE void begin_path(__global int *home, __global number *paths, __global int *marks,
+                       ulong inside, size_t step, size_t i)
 {
     home[i] = (int)i;
     paths[RT_PATH_WEIGHT * step + i] = 1.0f;
@@ -21,14 +21,15 @@ INLINE void begin_path(__global int *home, __global number *paths, __global int 
     paths[RT_PATH_TINT_G * step + i] = 1.0f;
     paths[RT_PATH_TINT_B * step + i] = 1.0f;
     marks[RT_MARK_BOUNCE * step + i] = 0;
-    marks[RT_MARK_MEDIUM * step + i] = RT_OUTSIDE;
+    marks[RT_MARK_INSIDE_LOW * step + i] = (int)inside;
+    marks[RT_MARK_INSIDE_HIGH * step + i] = (int)(inside >> 32);
     marks[RT_MARK_WAITING * step + i] = 0;
 }
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
           const rt_turn turn, const uint seed, const int flags, __global float *colors,
-          __global int *home, __global number *paths, __global int *marks)
+          __global int *home, __global number *paths, __global int *marks, const rt_nesting nesting)
 {
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
@@ -75,5 +76,5 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     if (RT_SUM && turn.sample == 0)
         colors[i] = colors[step + i] = colors[2 * step + i] = 0.0f;
     if (RT_NEXT)
-        begin_path(home, paths, marks, step, i);
+        begin_path(home, paths, marks, nesting.eye, step, i);
 }

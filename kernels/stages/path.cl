@@ -9,7 +9,8 @@ typedef struct next_ray {
     vec3 origin, direction;
     number weight;
     vec3 tint;
-    int bounce, medium, is_refracted;
+    int bounce, is_refracted;
+    ulong inside; /* of which bodies: shading/media.cl */
 } next_ray;
 
 /* The mirror image of direction d about n, or about the geometric normal where that would go into
@@ -47,9 +48,8 @@ INLINE int bend(vec3 d, vec3 n, number c1, number eta, vec3 *out, number *reflec
 
 /* The same about a surface's normal; about the geometric one where the interpolated one is turned
  * from the ray or would keep it on this side. */
-INLINE int refracted(vec3 d, const surface *s, number ior, vec3 *out, number *reflected)
+INLINE int refracted(vec3 d, const surface *s, number eta, vec3 *out, number *reflected)
 {
-    const number eta = s->outside ? DIVIDE_1((number)1.0f, ior) : ior;
     const number cosine = -DOT(d, s->normal);
     const number flat_cosine = -DOT(d, s->facing);
     if (cosine > (number)0.0f) {
@@ -59,6 +59,11 @@ INLINE int refracted(vec3 d, const surface *s, number ior, vec3 *out, number *re
             return 1;
     }
     return bend(d, s->facing, flat_cosine, eta, out, reflected);
+}
+
+INLINE ulong both_halves(int low, int high)
+{
+    return (ulong)(uint)high << 32 | (uint)low;
 }
 
 INLINE void store_next(__global number *next_rays, __global int *next_home, size_t step, size_t i,
@@ -73,7 +78,8 @@ INLINE void store_next(__global number *next_rays, __global int *next_home, size
     paths[RT_PATH_WEIGHT * step + at] = r->weight;
     STORE3(r->tint, paths + RT_PATH_TINT_R * step, step, at);
     marks[RT_MARK_BOUNCE * step + at] = r->bounce;
-    marks[RT_MARK_MEDIUM * step + at] = r->medium;
+    marks[RT_MARK_INSIDE_LOW * step + at] = (int)r->inside;
+    marks[RT_MARK_INSIDE_HIGH * step + at] = (int)(r->inside >> 32);
     marks[RT_MARK_IS_REFRACTED * step + at] = r->is_refracted;
 }
 
@@ -92,7 +98,8 @@ INLINE void push_waiting(__global number *waiting, __global int *waiting_marks, 
     w[RT_WAITING_WEIGHT * step] = r->weight;
     STORE3(r->tint, w + RT_WAITING_TINT_R * step, step, 0);
     m[RT_WAITING_BOUNCE * step] = r->bounce;
-    m[RT_WAITING_MEDIUM * step] = r->medium;
+    m[RT_WAITING_INSIDE_LOW * step] = (int)r->inside;
+    m[RT_WAITING_INSIDE_HIGH * step] = (int)(r->inside >> 32);
 }
 
 /* The ray that has waited the shortest; 0 where none does. */
@@ -110,56 +117,89 @@ INLINE int pop_waiting(__global const number *waiting, __global const int *waiti
     r->weight = w[RT_WAITING_WEIGHT * step];
     r->tint = LOAD3(w + RT_WAITING_TINT_R * step, step, 0);
     r->bounce = m[RT_WAITING_BOUNCE * step];
-    r->medium = m[RT_WAITING_MEDIUM * step];
+    r->inside = both_halves(m[RT_WAITING_INSIDE_LOW * step], m[RT_WAITING_INSIDE_HIGH * step]);
     r->is_refracted = 0;
     return 1;
 }
 
-/* The rays that a hit sends out: whether each is worth following, and what it is. */
-INLINE int send_mirrored(vec3 d, const surface *s, number part, const next_ray *from, next_ray *r)
-{
-    *r = *from;
-    r->weight = from->weight * part;
-    r->bounce = from->bounce + 1;
-    r->is_refracted = 0;
-    if (!(r->weight >= (number)RT_WEIGHT_LEAST))
-        return 0;
-    mirror_image(d, s, &r->direction);
-    /* Not by the direction: at a tangent its sign is rounding's. */
-    leave(s, &s->facing, &r->origin);
-    return 1;
-}
+/* Light that comes to a hit along a ray, seen backward: the parts that a mirror ray and a refracted
+ * ray bring, and where the latter goes. */
+typedef struct parting {
+    number mirrored, refracted;
+    vec3 direction; /* of the refracted ray */
+    ulong inside;   /* its bodies */
+} parting;
 
-/* `part` is what is left for the mirror ray: what Fresnel's law says, and what the material itself
- * mirrors. */
-INLINE int send_refracted(vec3 d, const surface *s, __global const rt_material *m, int material,
-                          const next_ray *from, next_ray *r, number *part)
+INLINE void part_light(vec3 d, const surface *s, __global const rt_material *m, int medium,
+                       __global const rt_medium *media, const rt_nesting nesting, ulong inside,
+                       parting *p)
 {
-    number reflected = 1.0f;
-    *r = *from;
-    *part = m->reflect;
+    p->mirrored = m->reflect;
+    p->refracted = 0.0f;
     if (!(m->transmit > 0.0f))
-        return 0;
-    const int through = refracted(d, s, (number)m->ior, &r->direction, &reflected);
-    *part = fma((number)m->transmit, reflected, (number)m->reflect);
-    r->weight = from->weight * ((number)m->transmit * ((number)1.0f - reflected));
-    r->bounce = from->bounce + 1;
-    r->medium = s->outside ? material : RT_OUTSIDE;
-    r->is_refracted = 1;
-    if (!through || !(r->weight >= (number)RT_WEIGHT_LEAST))
-        return 0;
-    const vec3 behind = SCALE(s->facing, (number)-1.0f);
-    leave(s, &behind, &r->origin);
+        return;
+    int here = medium_of(nesting, inside);
+    if (s->outside) {
+        p->inside = entered(nesting, inside, medium);
+    } else {
+        p->inside = left_body(nesting, inside, medium);
+        /* A surface that nobody came in by is left all the same. */
+        here = p->inside == inside ? medium : here;
+    }
+    const int there = medium_of(nesting, p->inside);
+    const number eta = DIVIDE_1((number)media[here].ior, (number)media[there].ior);
+    number part = 0.0f;
+    int through = 1;
+    p->direction = d;
+    if (eta != (number)1.0f)
+        through = refracted(d, s, eta, &p->direction, &part);
+    p->mirrored = fma((number)m->transmit, part, (number)m->reflect);
+    p->refracted = through ? (number)m->transmit * ((number)1.0f - part) : (number)0.0f;
+}
+
+/* What is followed of a hit's light, by weights of what the mirror ray and the refracted ray would
+ * bring; the weights that they go on with are put in their place, 0 for a ray that is not. Each has
+ * the mean that it had, and the two together, unless they are cut, exactly what they had: where
+ * nothing is lost at surfaces, following by chance loses and adds nothing. `tint` is the most that
+ * is left of any colour. Returns 0 where chance ends both. */
+INLINE int choose(number *mirrored, number *bent, number tint, int bounce, number u, number v)
+{
+    const number least = RT_WEIGHT_LEAST, quantum = RT_QUANTUM(bounce);
+    number all = *mirrored + *bent;
+    number a = *mirrored * tint, b = *bent * tint;
+    /* Not 0, by half a step of u. */
+    const number chance = u + (number)0x1p-25f;
+    if (!(all * tint >= least)) {
+        if (!(chance * least < all * tint))
+            return 0;
+        const int is_mirrored = v * all < *mirrored;
+        all = DIVIDE_1(least, tint);
+        *mirrored = is_mirrored ? all : (number)0.0f;
+        *bent = is_mirrored ? (number)0.0f : all;
+    } else if (!(all * tint >= (number)2.0f * quantum) || !(a > 0.0f) || !(b > 0.0f)) {
+        const int is_mirrored = v * all < *mirrored;
+        *mirrored = is_mirrored ? all : (number)0.0f;
+        *bent = is_mirrored ? (number)0.0f : all;
+    } else if (a < quantum || b < quantum) {
+        const int mirrored_is_less = a < b;
+        const number less = mirrored_is_less ? a : b;
+        const int is_followed = chance * quantum < less;
+        const number small = is_followed ? DIVIDE_1(quantum, tint) : (number)0.0f;
+        *mirrored = mirrored_is_less ? small : all - small;
+        *bent = mirrored_is_less ? all - small : small;
+    }
     return 1;
 }
 
 #if RT_NEXT
 /* The stage after shade where rays go on: each ray's next one, or the end of it. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
-rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
-        const int depth, __global const int *home, __global number *paths, __global int *marks,
-        __global number *next_rays, __global int *next_home, __global number *waiting,
-        __global int *waiting_marks)
+rt_next(TRACED_PARAMETERS, const rt_tile tile, const rt_turn turn, const uint seed,
+        __global const int *material_of, __global const rt_material *materials,
+        __global const int *medium_of_material, __global const rt_medium *media,
+        const rt_nesting nesting, const int depth, __global const int *home, __global number *paths,
+        __global int *marks, __global number *next_rays, __global int *next_home,
+        __global number *waiting, __global int *waiting_marks, __global ulong *tallies)
 {
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
@@ -169,23 +209,56 @@ rt_next(TRACED_PARAMETERS, __global const int *material_of, __global const rt_ma
     from.weight = paths[RT_PATH_WEIGHT * step + (size_t)slot];
     from.tint = LOAD3(paths + RT_PATH_TINT_R * step, step, (size_t)slot);
     from.bounce = marks[RT_MARK_BOUNCE * step + (size_t)slot];
-    from.medium = marks[RT_MARK_MEDIUM * step + (size_t)slot];
+    from.inside = both_halves(marks[RT_MARK_INSIDE_LOW * step + (size_t)slot],
+                              marks[RT_MARK_INSIDE_HIGH * step + (size_t)slot]);
+    from.is_refracted = 0;
     int has = 0;
     const int index = hit_index[i];
-    if (is_alive && index != RT_MISS && from.bounce < depth) {
+    if (is_alive && index != RT_MISS) {
         const traced w = TRACED;
         const vec3 direction = LOAD3(rays + RT_RAY_DX * step, step, i);
         surface s;
         surface_of(&w, i, index, direction, &s);
         const int material = material_of[index];
-        __global const rt_material *m = materials + material;
-        number part = m->reflect;
-        next_ray aside;
-        if (RT_REFRACT)
-            has = send_refracted(direction, &s, m, material, &from, &r, &part);
-        if (send_mirrored(direction, &s, part, &from, has ? &aside : &r)) {
+        parting p;
+        part_light(direction, &s, materials + material,
+                   RT_REFRACT ? medium_of_material[material] : 0, media, nesting, from.inside, &p);
+        number mirrored = from.weight * p.mirrored, bent = from.weight * p.refracted;
+        const number tint = GREATER_1(GREATER_1(from.tint.x, from.tint.y), from.tint.z);
+        if (from.bounce >= depth) {
+            tallies[RT_TALLY_CUT * step + i] += mirrored + bent > (number)0.0f;
+            tallies[RT_TALLY_CUT_PART * step + i] +=
+                (ulong)((mirrored + bent) * tint * (number)(1.0f / RT_CUT_UNIT));
+            mirrored = bent = 0.0f;
+        } else if (mirrored + bent > (number)0.0f) {
+            const pixel at = slot_pixel(tile, slot);
+            number u, v;
+            sample_point(sequence_of(seed, tile.x + at.column, tile.y + at.row, RT_PURPOSE_ROUTE,
+                                     from.bounce),
+                         (uint)turn.sample, &u, &v);
+            if (!choose(&mirrored, &bent, tint, from.bounce, u, v)) {
+                tallies[RT_TALLY_ENDED * step + i] += 1;
+                mirrored = bent = 0.0f;
+            }
+        }
+        r = from;
+        r.bounce = from.bounce + 1;
+        if (mirrored > (number)0.0f) {
+            r.weight = mirrored;
+            mirror_image(direction, &s, &r.direction);
+            /* Not by the direction: at a tangent its sign is rounding's. */
+            leave(&s, &s.facing, &r.origin);
+            has = 1;
+        }
+        if (RT_REFRACT && bent > (number)0.0f) {
             if (has)
-                push_waiting(waiting, waiting_marks, marks, step, slot, &aside);
+                push_waiting(waiting, waiting_marks, marks, step, slot, &r);
+            const vec3 behind = SCALE(s.facing, (number)-1.0f);
+            r.weight = bent;
+            r.direction = p.direction;
+            r.inside = p.inside;
+            r.is_refracted = 1;
+            leave(&s, &behind, &r.origin);
             has = 1;
         }
     }

@@ -165,7 +165,7 @@ rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
  * for --stats, those that were cast: for shadows, then for ambient light. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_tally(const int stride, const rt_turn turn, const int light_count, __global const number *probes,
-         __global const int *blocked, __global int *open, __global ulong *cast)
+         __global const int *blocked, __global int *open, __global ulong *tallies)
 {
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
@@ -178,6 +178,7 @@ rt_tally(const int stride, const rt_turn turn, const int light_count, __global c
         through += on & (blocked[j] == RT_MISS);
     }
     row[i] = (turn.first ? row[i] : 0) + through;
-    cast[(turn.light == light_count ? step : 0) + i] += (ulong)rays;
+    const size_t what = turn.light == light_count ? RT_TALLY_AMBIENT : RT_TALLY_SHADOW;
+    tallies[what * step + i] += (ulong)rays;
 }
 #endif

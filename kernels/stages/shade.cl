@@ -54,6 +54,8 @@ typedef struct shading {
     __global const int *home;
     __global number *paths;
     __global const int *marks;
+    __global const rt_medium *media;
+    rt_nesting nesting;
     int flags;
 } shading;
 
@@ -186,18 +188,18 @@ INLINE void add_to_path(const shading *w, size_t i, vec3 color)
     const size_t step = w->hits.step;
     const size_t slot = (size_t)w->home[i];
     vec3 tint = LOAD3(w->paths + RT_PATH_TINT_R * step, step, slot);
-    int medium = RT_OUTSIDE;
+    int medium = 0;
     if (RT_REFRACT)
-        medium = w->marks[RT_MARK_MEDIUM * step + slot];
+        medium = w->marks[RT_MARK_INSIDE_LOW * step + slot] & ((1 << w->nesting.bits) - 1);
     const number t = w->hits.hit_array[RT_HIT_T * step + i];
     number clear = 1.0f;
-    if (ON(ABSORB) && medium != RT_OUTSIDE) {
-        __global const rt_material *in = w->materials + medium;
+    if (ON(ABSORB)) {
+        __global const rt_medium *in = w->media + medium;
         tint.x *= left_after(in->absorb_r, t);
         tint.y *= left_after(in->absorb_g, t);
         tint.z *= left_after(in->absorb_b, t);
     }
-    if (ON(FOG) && medium == RT_OUTSIDE)
+    if (ON(FOG) && medium == 0)
         veil(&w->fog, t, &color, &clear);
     const vec3 part = SCALE(tint, w->paths[RT_PATH_WEIGHT * step + slot]);
     const vec3 sum = LOAD3(w->colors, step, slot);
@@ -250,7 +252,7 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
          __global const int *uvs_of, __global const float *uvs, __global const rt_texture *textures,
          __global const uint *texels, __global const int *open, const rt_crevice crevice,
          __global const int *home, __global number *paths, __global const int *marks,
-         const int flags)
+         __global const rt_medium *media, const rt_nesting nesting, const int flags)
 {
     const shading w = {
         .hits = TRACED,
@@ -268,6 +270,8 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
         .home = home,
         .paths = paths,
         .marks = marks,
+        .media = media,
+        .nesting = nesting,
         .flags = flags,
     };
     const size_t first = get_global_id(0) * RT_ITEM_RAYS;

@@ -47,10 +47,11 @@ static rt_render_times times_of(const rt_stats *s)
 
 static json_t *rays_of(const rt_render_times *t)
 {
-    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(t->primary_rays), "shadow",
-                     count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
+    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(t->primary_rays),
+                     "shadow", count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
                      "reflection", count_of(t->reflection_rays), "refraction",
-                     count_of(t->refraction_rays), "total", count_of(rt_render_times_rays(t)));
+                     count_of(t->refraction_rays), "total", count_of(rt_render_times_rays(t)),
+                     "ended", count_of(t->ended_rays), "cut", count_of(t->cut_rays));
 }
 
 /* What is not reading back counts as the kernels'. */
@@ -95,11 +96,11 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
     const rt_render_times t = times_of(s);
     const names n = names_of(s);
     json_t *root = json_pack(
-        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "device", n.device,
+        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:o,s:o,s:o,s:o,s:f,s:o,s:o,s:o,s:o}", "device", n.device,
         "platform", n.platform, "driver", n.driver, "accuracy", n.accuracy, "lanes", n.lanes,
         "width", scene->width, "height", scene->height, "primitives", primitives_of(scene),
         "lights", count_of(scene->light_count), "materials", count_of(scene->material_count),
-        "rays", rays_of(&t), "seconds", seconds_of(s, &t), "stages", stages_of(&t), "effects",
-        effects_of(s->effects), "devices", devices_of(s));
+        "rays", rays_of(&t), "light_cut", rt_render_times_cut(&t), "seconds", seconds_of(s, &t),
+        "stages", stages_of(&t), "effects", effects_of(s->effects), "devices", devices_of(s));
     return rt_json_write(root, "--stats", output, status);
 }

@@ -1,8 +1,10 @@
 /* The paths of the scalar reference: what a ray brings back from what it hits, and from the mirror
  * and refracted rays that leave from there. */
+#include <string.h>
+
 #include "reference/effects.h"
 
-/* A next ray that weighs less cannot be seen: half of an 8-bit step of white is 1/510. */
+/* What weighs less cannot be seen: half of an 8-bit step of white is 1/510. */
 #define LEAST_WEIGHT ((real)1 / 512)
 
 /* A ray on its way, and what is left of the light that comes along it. */
@@ -10,8 +12,9 @@ typedef struct branch {
     ray r;
     real weight;    /* what reflect, transmit and Fresnel leave */
     vec tint;       /* what fog and absorption leave */
-    int medium;     /* the material that the ray runs in, -1 outside of all */
     stream samples; /* its step counts the rays before this one */
+    int depth;      /* bodies that the ray is inside of, and their media, innermost last */
+    int32_t inside[RT_NESTING_MOST];
 } branch;
 
 static void add(vec *sum, const branch *b, vec color)
@@ -21,6 +24,35 @@ static void add(vec *sum, const branch *b, vec color)
     sum->z = FMA(b->weight * b->tint.z, color.z, sum->z);
 }
 
+/* The medium that the ray runs in, 0 for the open. */
+static int32_t medium_of(const branch *b)
+{
+    return b->depth > 0 ? b->inside[b->depth - 1] : 0;
+}
+
+/* Where there is no room the outermost body is forgotten. */
+static void enter(const scalar_world *world, branch *b, int32_t medium)
+{
+    if (b->depth == world->media.nesting) {
+        --b->depth;
+        memmove(b->inside, b->inside + 1, (size_t)b->depth * sizeof *b->inside);
+    }
+    b->inside[b->depth++] = medium;
+}
+
+/* Forgets the innermost body of a medium; false where the ray is in none. */
+static bool leave(branch *b, int32_t medium)
+{
+    int i = b->depth - 1;
+    while (i >= 0 && b->inside[i] != medium)
+        --i;
+    if (i < 0)
+        return false;
+    --b->depth;
+    memmove(b->inside + i, b->inside + i + 1, (size_t)(b->depth - i) * sizeof *b->inside);
+    return true;
+}
+
 /* Beer's law. Without absorption nothing is lost on an endless way either. */
 static real left_after(real density, real way)
 {
@@ -28,14 +60,15 @@ static real left_after(real density, real way)
 }
 
 /* What happens on the way of length t, which may be infinite. */
-static void pass(const rt_scene *scene, branch *b, real t, vec *sum)
+static void pass(const scalar_world *world, branch *b, real t, vec *sum)
 {
-    vec left;
-    if (b->medium >= 0) {
-        const rt_material *m = &scene->materials[b->medium];
+    vec left = {1, 1, 1};
+    if (b->depth > 0) {
+        const rt_medium *m = &world->media.list[medium_of(b)];
         left = (vec){left_after((real)m->absorb_r, t), left_after((real)m->absorb_g, t),
                      left_after((real)m->absorb_b, t)};
     } else {
+        const rt_scene *scene = world->scene;
         const real clear = left_after((real)scene->fog_density, t);
         add(sum, b, times(vec_of(scene->fog.x, scene->fog.y, scene->fog.z), 1 - clear));
         left = (vec){clear, clear, clear};
@@ -115,60 +148,118 @@ static real split(const surface *s, vec d, real eta, vec *refracted)
     return part;
 }
 
-static void arrive(const scalar_world *world, branch b, const hit *h, vec *sum);
+/* Which rays are followed of those that leave a hit, and how much they bring. */
+typedef struct route {
+    real mirrored, refracted;
+} route;
 
-static void follow(const scalar_world *world, const branch *b, vec *sum)
+/* At `step` rays from the camera, a part of light that weighs less than this is followed by
+ * chance, and then weighs so much. */
+static real quantum(uint32_t step)
 {
-    const hit h = NAME(closest)(world, &b->r);
-    arrive(world, *b, &h, sum);
+    const real doubled = LDEXP(LEAST_WEIGHT, (int)(step < 100 ? step : 100) / 4);
+    return doubled < 1 ? doubled : 1;
 }
 
-/* The refracted ray with all that comes of it, then the mirror ray. */
-static void go_on(const scalar_world *world, const branch *b, const surface *s, vec *sum)
+/* One of both, as likely as its part of them is, with the weight `all`. */
+static route one_of(route r, real all, real random)
+{
+    if (random * (r.mirrored + r.refracted) < r.mirrored)
+        return (route){all, 0};
+    return (route){0, all};
+}
+
+/* Russian roulette and splitting. `most` is the most that is left of any colour of the light on
+ * its way; weights times that are what can be seen. What is lost on average is nothing, and where
+ * all of the light goes on, all of it does in each single case. */
+static route chosen(route r, real most, uint32_t step, pair random)
+{
+    const real all = r.mirrored + r.refracted, seen = all * most;
+    const real q = quantum(step), chance = random.x + (real)0x1p-25;
+    if (seen < LEAST_WEIGHT)
+        return chance * LEAST_WEIGHT < seen ? one_of(r, LEAST_WEIGHT / most, random.y)
+                                            : (route){0, 0};
+    const real a = r.mirrored * most, b = r.refracted * most;
+    if (seen < 2 * q || a == 0 || b == 0)
+        return one_of(r, all, random.y);
+    if (a >= q && b >= q)
+        return r;
+    const real follow = chance * q < (a < b ? a : b) ? q / most : 0;
+    return a < b ? (route){follow, all - follow} : (route){all - follow, follow};
+}
+
+/* The ray that leaves a surface on the side that `side` points to. */
+static branch sent(const branch *b, const surface *s, vec side, vec direction, real weight)
+{
+    branch next = *b;
+    ++next.samples.step;
+    next.weight = weight;
+    next.r = (ray){NAME(start)(s, side), direction, 0, INFINITY};
+    return next;
+}
+
+/* How many rays go on from a surface, the refracted one first, 0 to 2. */
+static int go_on(const scalar_world *world, const branch *b, const surface *s, branch next[2])
 {
     const rt_material *m = s->material;
     const vec d = b->r.direction;
-    real mirror_weight = (real)m->reflect;
-    branch next = *b;
-    ++next.samples.step;
+    branch behind = *b;
+    vec refracted = d;
+    route r = {b->weight * (real)m->reflect, 0};
     if (m->transmit > 0.0f) {
-        const real eta = s->from_outside ? 1 / (real)m->ior : (real)m->ior;
-        vec refracted;
-        const real part = split(s, d, eta, &refracted);
-        next.weight = b->weight * ((real)m->transmit * (1 - part));
-        if (next.weight >= LEAST_WEIGHT) {
-            next.medium = s->from_outside ? s->material_index : -1;
-            next.r = (ray){NAME(start)(s, times(s->facing, -1)), refracted, 0, INFINITY};
-            follow(world, &next, sum);
-        }
-        mirror_weight = FMA((real)m->transmit, part, (real)m->reflect);
+        const rt_medium *media = world->media.list;
+        const int32_t medium = world->media.of[s->material_index];
+        int32_t here = medium_of(b);
+        if (s->from_outside)
+            enter(world, &behind, medium);
+        else if (!leave(&behind, medium))
+            here = medium; /* nobody came in by this surface */
+        const real eta = (real)media[here].ior / (real)media[medium_of(&behind)].ior;
+        const real part = eta == 1 ? 0 : split(s, d, eta, &refracted);
+        r.refracted = b->weight * ((real)m->transmit * (1 - part));
+        r.mirrored = b->weight * FMA((real)m->transmit, part, (real)m->reflect);
     }
-    next.weight = b->weight * mirror_weight;
-    if (next.weight >= LEAST_WEIGHT) {
-        next.medium = b->medium;
-        next.r = (ray){NAME(start)(s, s->facing), mirrored(s, d), 0, INFINITY};
-        follow(world, &next, sum);
-    }
+    if (!(r.mirrored + r.refracted > 0) || b->samples.step >= (uint32_t)world->scene->depth)
+        return 0;
+    const real most = FMAX(b->tint.x, FMAX(b->tint.y, b->tint.z));
+    const pair random = NAME(sample_point)(&b->samples, FOR_ROUTE, b->samples.sample);
+    r = chosen(r, most, b->samples.step, random);
+    int count = 0;
+    if (r.refracted > 0)
+        next[count++] = sent(&behind, s, times(s->facing, -1), refracted, r.refracted);
+    if (r.mirrored > 0)
+        next[count++] = sent(b, s, s->facing, mirrored(s, d), r.mirrored);
+    return count;
 }
 
-static void arrive(const scalar_world *world, branch b, const hit *h, vec *sum)
+/* All that comes of a branch that meets `h`. */
+static void follow(const scalar_world *world, branch b, hit h, vec *sum)
 {
-    const rt_scene *scene = world->scene;
-    pass(scene, &b, h->t, sum);
-    if (h->primitive == RT_MISS) {
-        add(sum, &b, background(scene, b.r.direction));
-        return;
+    for (;;) {
+        pass(world, &b, h.t, sum);
+        if (h.primitive == RT_MISS) {
+            add(sum, &b, background(world->scene, b.r.direction));
+            return;
+        }
+        const surface s = NAME(surface_at)(world->scene, &b.r, &h);
+        add(sum, &b, NAME(local_color)(world, &s, b.r.direction, &b.samples));
+        branch next[2];
+        const int count = go_on(world, &b, &s, next);
+        if (count == 0)
+            return;
+        if (count == 2)
+            follow(world, next[0], NAME(closest)(world, &next[0].r), sum);
+        b = next[count - 1];
+        h = NAME(closest)(world, &b.r);
     }
-    const surface s = NAME(surface_at)(scene, &b.r, h);
-    add(sum, &b, NAME(local_color)(world, &s, b.r.direction, &b.samples));
-    if (b.samples.step < (uint32_t)scene->depth)
-        go_on(world, &b, &s, sum);
 }
 
 vec NAME(radiance)(const scalar_world *world, const ray *r, const hit *h, const stream *samples)
 {
     vec sum = {0, 0, 0};
-    const branch b = {*r, 1, {1, 1, 1}, -1, *samples};
-    arrive(world, b, h, &sum);
+    branch b = {.r = *r, .weight = 1, .tint = {1, 1, 1}, .samples = *samples};
+    b.depth = world->media.eye_count;
+    memcpy(b.inside, world->media.eye, sizeof b.inside);
+    follow(world, b, *h, &sum);
     return sum;
 }

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "scene/media.h"
 #include "scene/scene.h"
 
 #ifdef RT_SCALAR_DOUBLE
@@ -122,6 +123,7 @@ static inline vec unit(vec a)
  * NULL, where there was no memory) every primitive is tried, which gives the same bits. */
 typedef struct scalar_world {
     const rt_scene *scene;
+    rt_media media;            /* owned; `list` is NULL where there was no memory */
     struct scalar_node *nodes; /* owned */
     int *order;                /* owned: primitives as the leaves have them */
 } scalar_world;

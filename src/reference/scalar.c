@@ -115,9 +115,13 @@ bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch,
                  .watch = watch,
                  .e = eye_of(scene),
                  .lock = PTHREAD_MUTEX_INITIALIZER};
-    rt_parallel((size_t)image->height, rt_parallel_processors(), draw_row, &p);
+    const bool has_memory = p.world.media.list != NULL;
+    if (has_memory)
+        rt_parallel((size_t)image->height, rt_parallel_processors(), draw_row, &p);
     pthread_mutex_destroy(&p.lock);
     NAME(world_clear)(&p.world);
+    if (!has_memory)
+        return rt_status_no_memory(status, "media");
     if (p.is_stopped)
         return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
     return true;

@@ -96,6 +96,9 @@ scalar_world NAME(world)(const rt_scene *scene)
 {
     const size_t count = rt_scene_primitive_count(scene);
     scalar_world world = {.scene = scene};
+    rt_status status = {0};
+    (void)rt_media_find(&world.media, scene, &status);
+    rt_status_clear(&status);
     if (count == 0)
         return world;
     builder b = {scene, malloc(count * sizeof *b.nodes), calloc(count, sizeof *b.order), 0};
@@ -114,9 +117,10 @@ scalar_world NAME(world)(const rt_scene *scene)
 
 void NAME(world_clear)(scalar_world *world)
 {
+    rt_media_clear(&world->media);
     free(world->nodes);
     free(world->order);
-    *world = (scalar_world){NULL, NULL, NULL};
+    *world = (scalar_world){0};
 }
 
 static void try_every_primitive(const scalar_world *w, const ray *r, hit *best)

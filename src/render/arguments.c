@@ -5,7 +5,7 @@
 #include "scene/camera.h"
 
 /* Arrays between stages, those of the scene and values, and a few of each kind of primitive. */
-#define KNOWN_MOST (BUFFER_COUNT + 45 + 3 * RT_KIND_COUNT)
+#define KNOWN_MOST (BUFFER_COUNT + 48 + 3 * RT_KIND_COUNT)
 
 _Static_assert(RT_EFFECT_COUNT < 31, "each effect has a bit of `flags`");
 
@@ -32,7 +32,7 @@ static void know_tile(known *k, const rt_renderer *r)
         [BUFFER_COLORS] = "colors",       [BUFFER_PICTURE] = "picture",
         [BUFFER_RECORDS] = "records",     [BUFFER_PROBES] = "probes",
         [BUFFER_BLOCKED] = "blocked",     [BUFFER_OPEN] = "open",
-        [BUFFER_CAST] = "cast",           [BUFFER_HOME] = "home",
+        [BUFFER_TALLIES] = "tallies",     [BUFFER_HOME] = "home",
         [BUFFER_PATHS] = "paths",         [BUFFER_MARKS] = "marks",
         [BUFFER_NEXT_RAYS] = "next_rays", [BUFFER_NEXT_HOME] = "next_home",
         [BUFFER_COUNTS] = "counts",       [BUFFER_FIRST] = "first",
@@ -60,6 +60,9 @@ static void know_scene(known *k, const rt_device_scene *s)
     KNOW(k, "material_of", s->materials_of);
     KNOW(k, "materials", s->materials);
     KNOW(k, "lights", s->lights);
+    KNOW(k, "medium_of_material", s->media_of);
+    KNOW(k, "media", s->media);
+    KNOW(k, "nesting", s->nesting);
     KNOW(k, "uvs_of", s->uvs_of);
     KNOW(k, "uvs", s->uvs);
     KNOW(k, "textures", s->textures);

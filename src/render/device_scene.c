@@ -1,5 +1,7 @@
 #include "render/device_scene.h"
 
+#include "scene/media.h"
+
 /* Where uploads go and by which queue. */
 typedef struct uploader {
     cl_context context;
@@ -87,6 +89,24 @@ static bool upload_textures(const uploader *u, const rt_scene *scene, rt_status 
            upload(u, scene->texels, scene->texel_count * sizeof *scene->texels, &b->texels, status);
 }
 
+static bool upload_media(const uploader *u, const rt_scene *scene, rt_status *status)
+{
+    rt_device_scene *b = u->target;
+    rt_media media;
+    if (!rt_media_find(&media, scene, status))
+        return false;
+    b->nesting = (rt_nesting){.bits = media.bits};
+    for (int i = 0; i < media.nesting; ++i)
+        b->nesting.ones |= UINT64_C(1) << i * media.bits;
+    for (int i = 0; i < media.eye_count; ++i)
+        b->nesting.eye = b->nesting.eye << media.bits | (uint64_t)media.eye[i];
+    const bool good =
+        upload(u, media.of, scene->material_count * sizeof *media.of, &b->media_of, status) &&
+        upload(u, media.list, (size_t)media.count * sizeof *media.list, &b->media, status);
+    rt_media_clear(&media);
+    return good;
+}
+
 bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_command_queue queue,
                             const rt_scene *scene, const rt_bvh *bvh, const rt_effects *effects,
                             rt_status *status)
@@ -98,15 +118,16 @@ bool rt_device_scene_upload(rt_device_scene *target, cl_context context, cl_comm
                   &b->materials, status) &&
            upload(u, scene->lights, scene->light_count * sizeof *scene->lights, &b->lights,
                   status) &&
+           (!rt_effects_has(effects, RT_EFFECT_REFRACT) || upload_media(u, scene, status)) &&
            (!rt_effects_has(effects, RT_EFFECT_SMOOTH) || upload_normals(u, scene, status)) &&
            (!rt_effects_has(effects, RT_EFFECT_TEXTURE) || upload_textures(u, scene, status));
 }
 
 void rt_device_scene_release(rt_device_scene *s)
 {
-    const cl_mem buffers[] = {s->nodes,        s->order,      s->lights,  s->materials,
-                              s->materials_of, s->normals_of, s->normals, s->uvs_of,
-                              s->uvs,          s->textures,   s->texels};
+    const cl_mem buffers[] = {
+        s->nodes,      s->order,   s->lights, s->materials, s->materials_of, s->media_of, s->media,
+        s->normals_of, s->normals, s->uvs_of, s->uvs,       s->textures,     s->texels};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i)
         if (buffers[i])
             clReleaseMemObject(buffers[i]);

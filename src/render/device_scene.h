@@ -14,7 +14,9 @@
 typedef struct rt_device_scene {
     cl_mem nodes, order, blocks[RT_KIND_COUNT]; /* the tree and its leaves' blocks */
     cl_mem materials_of, materials, lights;     /* the first by primitive */
-    cl_mem normals_of, normals;                 /* where normals are smooth; by triangle */
+    cl_mem media_of, media; /* where light is refracted; the first by material */
+    rt_nesting nesting;
+    cl_mem normals_of, normals;           /* where normals are smooth; by triangle */
     cl_mem uvs_of, uvs, textures, texels; /* where there are textures; the first by triangle */
     cl_int counts[RT_KIND_COUNT], block_counts[RT_KIND_COUNT];
 } rt_device_scene;

@@ -89,7 +89,8 @@ static bool pack(passes *p)
     const size_t blocks = p->rays / RT_BLOCK_RAYS;
     cl_int *counts = r->counts, *first = r->counts + RT_COUNT_COMPONENTS * blocks;
     cl_event event = NULL;
-    if (!launch(p, RT_STAGE_NEXT, p->rays) || !launch(p, RT_STAGE_COUNT_NEXT, p->rays) ||
+    if (!set_turn(p, RT_STAGE_NEXT) || !launch(p, RT_STAGE_NEXT, p->rays) ||
+        !launch(p, RT_STAGE_COUNT_NEXT, p->rays) ||
         !RT_CL(clEnqueueReadBuffer(r->queue, r->tile[BUFFER_COUNTS], CL_TRUE, 0,
                                    RT_COUNT_COMPONENTS * blocks * sizeof *counts, counts, 0, NULL,
                                    &event),
@@ -171,8 +172,9 @@ bool rt_passes_start(rt_renderer *r, const rt_tile *tile, rt_image *image, fligh
                      const rt_watch *watch, double done, double share, rt_status *status)
 {
     passes all = {.r = r, .tile = tile, .f = f, .status = status}, *p = &all;
-    static const enum rt_stage placed[] = {RT_STAGE_CAMERA, RT_STAGE_RESOLVE, RT_STAGE_HITS,
-                                           RT_STAGE_SHADOW_RAYS, RT_STAGE_AMBIENT_RAYS};
+    static const enum rt_stage placed[] = {RT_STAGE_CAMERA,       RT_STAGE_RESOLVE,
+                                           RT_STAGE_HITS,         RT_STAGE_SHADOW_RAYS,
+                                           RT_STAGE_AMBIENT_RAYS, RT_STAGE_NEXT};
     f->busy = true;
     r->times.tiles++;
     r->times.primary_rays += (size_t)tile->width * (size_t)tile->height * (size_t)r->samples;
@@ -192,24 +194,26 @@ bool rt_passes_start(rt_renderer *r, const rt_tile *tile, rt_image *image, fligh
            RT_CL(clFlush(r->queue), status);
 }
 
-bool rt_passes_count_probes(rt_renderer *r, rt_status *status)
+bool rt_passes_read_tallies(rt_renderer *r, rt_status *status)
 {
-    if (!r->tile[BUFFER_CAST])
+    if (!r->tile[BUFFER_TALLIES])
         return true;
     const size_t count = (size_t)r->stride;
-    cl_ulong part[1024];
-    size_t sums[2] = {0, 0};
-    for (size_t at = 0; at < 2 * count; at += sizeof part / sizeof *part) {
-        const size_t left = 2 * count - at;
+    cl_ulong part[1024], sums[RT_TALLY_COMPONENTS] = {0};
+    for (size_t at = 0; at < RT_TALLY_COMPONENTS * count; at += sizeof part / sizeof *part) {
+        const size_t left = RT_TALLY_COMPONENTS * count - at;
         const size_t n = left < sizeof part / sizeof *part ? left : sizeof part / sizeof *part;
-        if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile[BUFFER_CAST], CL_TRUE, at * sizeof *part,
-                                       n * sizeof *part, part, 0, NULL, NULL),
+        if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile[BUFFER_TALLIES], CL_TRUE,
+                                       at * sizeof *part, n * sizeof *part, part, 0, NULL, NULL),
                    status))
             return false;
         for (size_t i = 0; i < n; ++i)
-            sums[at + i >= count] += part[i];
+            sums[(at + i) / count] += part[i];
     }
-    r->times.shadow_rays = sums[0];
-    r->times.occlusion_rays = sums[1];
+    r->times.shadow_rays = sums[RT_TALLY_SHADOW];
+    r->times.occlusion_rays = sums[RT_TALLY_AMBIENT];
+    r->times.cut_rays = sums[RT_TALLY_CUT];
+    r->times.cut_light = (double)sums[RT_TALLY_CUT_PART] * (double)RT_CUT_UNIT;
+    r->times.ended_rays = sums[RT_TALLY_ENDED];
     return true;
 }

@@ -11,6 +11,6 @@ bool rt_passes_start(rt_renderer *renderer, const rt_tile *tile, rt_image *image
                      const rt_watch *watch, double done, double share, rt_status *status);
 
 /* Brings the times' counts of probes up to date. */
-bool rt_passes_count_probes(rt_renderer *renderer, rt_status *status);
+bool rt_passes_read_tallies(rt_renderer *renderer, rt_status *status);
 
 #endif

@@ -75,10 +75,10 @@ static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
     }
 }
 
-/* At most one ray a bounce waits. */
+/* At most one ray a bounce waits; none is left to go on from the last one. */
 static size_t most_waiting(const rt_renderer *r)
 {
-    const int depth = r->effects.on[RT_EFFECT_REFRACT] ? r->depth : 1;
+    const int depth = r->effects.on[RT_EFFECT_REFRACT] && r->depth > 1 ? r->depth : 1;
     return (size_t)(depth < RT_WAITING_MOST ? depth : RT_WAITING_MOST);
 }
 
@@ -109,8 +109,8 @@ static size_t bytes_a_ray(const rt_renderer *r, enum tile_buffer which)
         return any_hit ? sizeof(cl_int) : 0;
     case BUFFER_OPEN:
         return probes ? ((size_t)r->light_count + 1) * sizeof(cl_int) : 0;
-    case BUFFER_CAST:
-        return probes ? 2 * sizeof(cl_ulong) : 0;
+    case BUFFER_TALLIES:
+        return probes || next ? RT_TALLY_COMPONENTS * sizeof(cl_ulong) : 0;
     case BUFFER_HOME:
     case BUFFER_NEXT_HOME:
         return next ? sizeof(cl_int) : 0;
@@ -142,11 +142,12 @@ static bool make_buffers(rt_renderer *r, rt_status *status)
                                      &r->tile[i], status))
             return false;
     }
-    if (!r->tile[BUFFER_CAST])
+    if (!r->tile[BUFFER_TALLIES])
         return true;
     const cl_ulong zero = 0;
-    return RT_CL(clEnqueueFillBuffer(r->queue, r->tile[BUFFER_CAST], &zero, sizeof zero, 0,
-                                     2 * (size_t)r->stride * sizeof zero, 0, NULL, NULL),
+    return RT_CL(clEnqueueFillBuffer(r->queue, r->tile[BUFFER_TALLIES], &zero, sizeof zero, 0,
+                                     RT_TALLY_COMPONENTS * (size_t)r->stride * sizeof zero, 0, NULL,
+                                     NULL),
                  status);
 }
 

@@ -16,7 +16,7 @@ enum tile_buffer {
     BUFFER_PROBES,  /* rays that ask whether the way is free ... */
     BUFFER_BLOCKED, /* ... and what any-hit says of each */
     BUFFER_OPEN,    /* probes that got through: a row a light, and one for ambient light */
-    BUFFER_CAST,    /* probes that were cast, for shadows and for ambient light */
+    BUFFER_TALLIES, /* what is counted of rays: RT_TALLY_... */
     BUFFER_HOME,    /* a ray's place in the tile */
     BUFFER_PATHS,
     BUFFER_MARKS,

@@ -24,6 +24,11 @@ size_t rt_render_times_rays(const rt_render_times *t)
            t->refraction_rays;
 }
 
+double rt_render_times_cut(const rt_render_times *t)
+{
+    return t->primary_rays ? t->cut_light / (double)t->primary_rays : 0.0;
+}
+
 static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
                   rt_status *status)
 {
@@ -160,7 +165,7 @@ bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, co
         good = good && rt_passes_start(r, &tile, image, f, watch, rt_tiles_done(tiles),
                                        1.0 / tiles->count, status);
     }
-    return finish_all(r, status) && good && rt_passes_count_probes(r, status);
+    return finish_all(r, status) && good && rt_passes_read_tallies(r, status);
 }
 
 bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt_status *status)

@@ -246,6 +246,9 @@ rt_render_times rt_team_times(const rt_team *team)
         sum.occlusion_rays += times->occlusion_rays;
         sum.reflection_rays += times->reflection_rays;
         sum.refraction_rays += times->refraction_rays;
+        sum.ended_rays += times->ended_rays;
+        sum.cut_rays += times->cut_rays;
+        sum.cut_light += times->cut_light;
     }
     return sum;
 }

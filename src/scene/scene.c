@@ -15,7 +15,7 @@ void rt_scene_init(rt_scene *scene)
     scene->camera.up = (rt_vec3){0.0f, 1.0f, 0.0f};
     scene->camera.vfov = 90.0f;
     scene->samples = 1;
-    scene->depth = 5;
+    scene->depth = 32;
 }
 
 void rt_scene_clear(rt_scene *scene)

@@ -19,7 +19,7 @@
 #define RT_SHININESS_MAX 1e6f
 /* Rays a pixel, shadow rays a point, occlusion rays a point. */
 #define RT_SAMPLES_MAX 4096
-#define RT_DEPTH_MAX 1024
+#define RT_DEPTH_MAX 65536
 /* Of all textures together: 1 GiB, and every index and byte count is within 32 bits. */
 #define RT_TEXELS_MAX (INT64_C(1) << 28)
 

@@ -50,15 +50,29 @@ static inline void test_add_floor(rt_scene *scene, const rt_material *m, float h
     test_add_triangle(scene, m, &floor);
 }
 
+/* What an eye at the origin of a ray sees along it, as the mean of so many samples: what is followed
+ * by chance wants many. */
+static inline vec test_look_long(const rt_scene *scene, vec origin, vec direction, uint32_t count)
+{
+    rt_scene there = *scene;
+    there.camera.from = (rt_vec3){(float)origin.x, (float)origin.y, (float)origin.z};
+    there.camera.at = (rt_vec3){(float)(origin.x + direction.x), (float)(origin.y + direction.y),
+                                (float)(origin.z + direction.z)};
+    const ray r = {origin, unit(direction), 0, INFINITY};
+    scalar_world world = rt_scalar_double_world(&there);
+    const hit h = rt_scalar_double_closest(&world, &r);
+    vec sum = {0, 0, 0};
+    for (uint32_t i = 0; i < count; ++i) {
+        const stream samples = {.sample = i};
+        sum = plus(sum, rt_scalar_double_radiance(&world, &r, &h, &samples));
+    }
+    rt_scalar_double_world_clear(&world);
+    return times(sum, 1.0 / count);
+}
+
 static inline vec test_look(const rt_scene *scene, vec origin, vec direction)
 {
-    const ray r = {origin, unit(direction), 0, INFINITY};
-    const stream samples = {0, 0, 0, 0};
-    scalar_world world = rt_scalar_double_world(scene);
-    const hit h = rt_scalar_double_closest(&world, &r);
-    const vec color = rt_scalar_double_radiance(&world, &r, &h, &samples);
-    rt_scalar_double_world_clear(&world);
-    return color;
+    return test_look_long(scene, origin, direction, 1);
 }
 
 /* The surface that the ray meets. */
