@@ -18,7 +18,13 @@ INLINE pixel tile_pixel(rt_tile tile)
     return p;
 }
 
-/* The same of any place in the tile's arrays. */
+/* Where a pixel's colour is in the tile's rows, whose components lie side by side. */
+INLINE size_t picture_place(rt_tile tile, pixel p)
+{
+    return ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
+}
+
+/* The pixel of any place in the tile's arrays. */
 INLINE pixel slot_pixel(rt_tile tile, int slot)
 {
     const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;

@@ -29,7 +29,8 @@ INLINE void begin_path(__global int *home, __global number *paths, __global int 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
           const rt_turn turn, const uint seed, const int flags, __global float *colors,
-          __global int *home, __global number *paths, __global int *marks, const rt_nesting nesting)
+          __global int *home, __global number *paths, __global int *marks, const rt_nesting nesting,
+          __global const float *picture)
 {
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
@@ -73,8 +74,12 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     rays[RT_RAY_TMIN * step + i] = 0.0f;
     /* A ray that hangs over the tile's edge ends before it begins. */
     rays[RT_RAY_TMAX * step + i] = p.inside ? INFINITY : -1.0f;
-    if (RT_SUM && turn.sample == 0)
-        colors[i] = colors[step + i] = colors[2 * step + i] = 0.0f;
+    if (RT_SUM && turn.sample == turn.begin) {
+        vec3 before = {0.0f, 0.0f, 0.0f};
+        if (turn.begin > 0 && p.inside)
+            before = LOAD3(picture, 1, picture_place(tile, p));
+        STORE3(before, colors, step, i);
+    }
     if (RT_NEXT)
         begin_path(home, paths, marks, nesting.eye, step, i);
 }

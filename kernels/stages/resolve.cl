@@ -2,22 +2,18 @@
 
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
-           __global float *picture, const int samples, const int flags)
+           __global float *picture, const rt_turn turn, const int flags)
 {
     const pixel p = tile_pixel(tile);
     if (!p.inside)
         return;
     vec3 color = LOAD3(colors, stride, get_global_id(0));
     if (ON(ANTIALIAS)) {
-        color.x = color.x / (number)samples;
-        color.y = color.y / (number)samples;
-        color.z = color.z / (number)samples;
+        color.x = color.x / (number)turn.divisor;
+        color.y = color.y / (number)turn.divisor;
+        color.z = color.z / (number)turn.divisor;
     }
-    __global float *out =
-        picture + ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
-    out[0] = color.x;
-    out[1] = color.y;
-    out[2] = color.z;
+    STORE3(color, picture, 1, picture_place(tile, p));
 }
 
 /* Hit records of four words a pixel: primitive index, then t, in the file's unit of length, u, v.

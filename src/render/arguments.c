@@ -87,7 +87,7 @@ typedef struct values {
     rt_gradient gradient;
     rt_fog fog;
     rt_crevice crevice;
-    cl_int light_count, samples, depth, flags;
+    cl_int light_count, depth, flags;
     cl_uint seed;
     /* Set before each launch. */
     rt_tile tile;
@@ -106,7 +106,6 @@ static values values_of(const rt_renderer *r, const rt_scene *scene)
         .fog = {fog.x, fog.y, fog.z, scene->fog_density},
         .crevice = {scene->occlusion_distance, scene->occlusion_samples},
         .light_count = r->light_count,
-        .samples = r->samples,
         .depth = r->depth,
         .seed = scene->seed,
         .flags = flags_of(r) | (scene->filter == RT_FILTER_TENT ? RT_FLAG_TENT : 0),
@@ -124,7 +123,6 @@ static void know_values(known *k, const values *v, const rt_renderer *r)
     KNOW(k, "fog", v->fog);
     KNOW(k, "crevice", v->crevice);
     KNOW(k, "light_count", v->light_count);
-    KNOW(k, "samples", v->samples);
     KNOW(k, "depth", v->depth);
     KNOW(k, "seed", v->seed);
     KNOW(k, "flags", v->flags);

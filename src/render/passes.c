@@ -152,6 +152,19 @@ static bool draw_sample(passes *p, bool hits, const rt_watch *watch, double done
     return true;
 }
 
+/* The sums of the samples before go to where the camera stage takes them up. */
+static bool write_sums(passes *p, const rt_image *image)
+{
+    const rt_tile *tile = p->tile;
+    const size_t size = RT_COLOR_COMPONENTS * sizeof *image->rgb;
+    const size_t source[3] = {(size_t)tile->x * size, (size_t)tile->y, 0}, target[3] = {0, 0, 0};
+    const size_t region[3] = {(size_t)tile->width * size, (size_t)tile->height, 1};
+    return RT_CL(clEnqueueWriteBufferRect(p->r->queue, p->r->tile[BUFFER_PICTURE], CL_FALSE, target,
+                                          source, region, region[0], 0, (size_t)p->r->width * size,
+                                          0, image->rgb, 0, NULL, NULL),
+                 p->status);
+}
+
 /* Reads a tile's rows into their place in a picture of `size`-byte pixels. */
 static bool read_tile(passes *p, enum tile_buffer buffer, void *pixels, size_t size)
 {
@@ -168,29 +181,35 @@ static bool read_tile(passes *p, enum tile_buffer buffer, void *pixels, size_t s
            rt_flight_add(p->f, r, EVENT_READ, event, p->status);
 }
 
-bool rt_passes_start(rt_renderer *r, const rt_tile *tile, rt_image *image, flight *f,
-                     const rt_watch *watch, double done, double share, rt_status *status)
+bool rt_passes_start(rt_renderer *r, const rt_tile *tile, const rt_sample_range *range,
+                     rt_image *image, flight *f, const rt_watch *watch, double done, double share,
+                     rt_status *status)
 {
     passes all = {.r = r, .tile = tile, .f = f, .status = status}, *p = &all;
+    p->turn.begin = range->first;
+    p->turn.divisor = range->as_sums ? 1 : range->first + range->count;
     static const enum rt_stage placed[] = {RT_STAGE_CAMERA,       RT_STAGE_RESOLVE,
                                            RT_STAGE_HITS,         RT_STAGE_SHADOW_RAYS,
                                            RT_STAGE_AMBIENT_RAYS, RT_STAGE_NEXT};
     f->busy = true;
     r->times.tiles++;
-    r->times.primary_rays += (size_t)tile->width * (size_t)tile->height * (size_t)r->samples;
+    r->times.primary_rays += (size_t)tile->width * (size_t)tile->height * (size_t)range->count;
     for (size_t i = 0; i < sizeof placed / sizeof *placed; ++i)
         if (!set_tile(p, placed[i]))
             return false;
-    for (int q = 0; q < r->samples; ++q) {
-        const double now = done + share * q / r->samples;
-        p->turn.sample = q;
+    if (range->first > 0 && !write_sums(p, image))
+        return false;
+    for (int q = 0; q < range->count; ++q) {
+        const double now = done + share * q / range->count;
+        p->turn.sample = range->first + q;
         if ((q > 0 && interrupted(p, watch, now)) ||
-            !draw_sample(p, q == 0 && image->hits, watch, now))
+            !draw_sample(p, p->turn.sample == 0 && image->hits, watch, now))
             return false;
     }
-    return launch(p, RT_STAGE_RESOLVE, rays_of_tile(tile)) &&
+    return set_turn(p, RT_STAGE_RESOLVE) && launch(p, RT_STAGE_RESOLVE, rays_of_tile(tile)) &&
            read_tile(p, BUFFER_PICTURE, image->rgb, 3 * sizeof *image->rgb) &&
-           (!image->hits || read_tile(p, BUFFER_RECORDS, image->hits, sizeof *image->hits)) &&
+           (!image->hits || range->first > 0 ||
+            read_tile(p, BUFFER_RECORDS, image->hits, sizeof *image->hits)) &&
            RT_CL(clFlush(r->queue), status);
 }
 

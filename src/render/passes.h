@@ -7,8 +7,9 @@
 /* Takes a tile through all stages, and queues the reads of what comes of it. Where that takes
  * several passes, asks the watch between them; `done` and `share` are the parts of the picture that
  * are done before and that the tile is. */
-bool rt_passes_start(rt_renderer *renderer, const rt_tile *tile, rt_image *image, flight *f,
-                     const rt_watch *watch, double done, double share, rt_status *status);
+bool rt_passes_start(rt_renderer *renderer, const rt_tile *tile, const rt_sample_range *range,
+                     rt_image *image, flight *f, const rt_watch *watch, double done, double share,
+                     rt_status *status);
 
 /* Brings the times' counts of probes up to date. */
 bool rt_passes_read_tallies(rt_renderer *renderer, rt_status *status);

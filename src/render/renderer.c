@@ -144,9 +144,10 @@ static bool finish_all(rt_renderer *r, rt_status *status)
     return good;
 }
 
-bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, const rt_watch *watch,
-                            rt_status *status)
+bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, const rt_sample_range *range,
+                            rt_image *image, const rt_watch *watch, rt_status *status)
 {
+    const rt_sample_range all = {0, r->samples, false};
     rt_taker taker = {tiles, 0};
     bool good = true;
     for (int i = 0; good; ++i) {
@@ -162,8 +163,8 @@ bool rt_renderer_draw_tiles(rt_renderer *r, rt_tiles *tiles, rt_image *image, co
             break;
         if (!rt_watch_tick(watch, rt_tiles_done(tiles)))
             good = rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
-        good = good && rt_passes_start(r, &tile, image, f, watch, rt_tiles_done(tiles),
-                                       1.0 / tiles->count, status);
+        good = good && rt_passes_start(r, &tile, range ? range : &all, image, f, watch,
+                                       rt_tiles_done(tiles), 1.0 / tiles->count, status);
     }
     return finish_all(r, status) && good && rt_passes_read_tallies(r, status);
 }
@@ -172,5 +173,5 @@ bool rt_renderer_draw(rt_renderer *r, rt_image *image, const rt_watch *watch, rt
 {
     rt_tiles tiles;
     rt_tiles_init(&tiles, r->width, r->height, r->tile_side, 1);
-    return rt_renderer_draw_tiles(r, &tiles, image, watch, status);
+    return rt_renderer_draw_tiles(r, &tiles, NULL, image, watch, status);
 }

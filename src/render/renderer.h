@@ -76,9 +76,17 @@ void rt_renderer_free(rt_renderer *renderer);
 bool rt_renderer_draw(rt_renderer *renderer, rt_image *image, const rt_watch *watch,
                       rt_status *status);
 
-/* Renders the tiles that are left, of a side that is the renderer's, until none is. */
-bool rt_renderer_draw_tiles(rt_renderer *renderer, rt_tiles *tiles, rt_image *image,
-                            const rt_watch *watch, rt_status *status);
+/* Some of each pixel's samples, `first` to `first + count - 1`; of a picture of one sample all. */
+typedef struct rt_sample_range {
+    int first, count;
+    bool as_sums; /* whether the picture is left as sums, so that more can be added */
+} rt_sample_range;
+
+/* Renders the tiles that are left, of a side that is the renderer's, until none is. With a range of
+ * samples that begins above 0 the picture holds the sums of those before; the sums, and so the
+ * bytes, are the same in however many ranges they are made. NULL: all of the scene's samples. */
+bool rt_renderer_draw_tiles(rt_renderer *renderer, rt_tiles *tiles, const rt_sample_range *range,
+                            rt_image *image, const rt_watch *watch, rt_status *status);
 
 /* The nearest hits of `count` rays, through the trace kernel that renders. */
 bool rt_renderer_trace(rt_renderer *renderer, const rt_ray *rays, size_t count, rt_hit *hits,

@@ -33,6 +33,7 @@ struct rt_team {
     const rt_bvh *bvh;
     rt_render_options options;
     rt_tiles tiles;
+    const rt_sample_range *range;
     rt_image *image;
     const rt_watch *watch;
     /* The caller's watch under a lock. */
@@ -56,8 +57,8 @@ static void *draw_tiles(void *argument)
     member *m = argument;
     rt_team *team = m->team;
     const double start = rt_clock_seconds();
-    m->good =
-        rt_renderer_draw_tiles(m->renderer, &team->tiles, team->image, team->watch, m->status);
+    m->good = rt_renderer_draw_tiles(m->renderer, &team->tiles, team->range, team->image,
+                                     team->watch, m->status);
     m->seconds += rt_clock_seconds() - start;
     if (!m->good)
         rt_tiles_stop(&team->tiles);
@@ -197,14 +198,22 @@ static bool tick_locked(void *context, double done)
 
 bool rt_team_draw(rt_team *team, rt_image *image, const rt_watch *watch, rt_status *status)
 {
+    return rt_team_draw_range(team, NULL, image, watch, status);
+}
+
+bool rt_team_draw_range(rt_team *team, const rt_sample_range *range, rt_image *image,
+                        const rt_watch *watch, rt_status *status)
+{
     const rt_watch locked = {tick_locked, team};
     rt_tiles_init(&team->tiles, team->width, team->height, team->tile_side, (int)team->count);
+    team->range = range;
     team->image = image;
     team->inner = watch;
     team->watch = team->count > 1 && watch ? &locked : watch;
     team->done = 0.0;
     team->stopped = false;
     const bool good = for_all(team, draw_tiles, status);
+    team->range = NULL;
     team->image = NULL;
     team->inner = team->watch = NULL;
     return good;

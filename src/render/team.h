@@ -27,6 +27,10 @@ void rt_team_free(rt_team *team);
  * two threads at a time. */
 bool rt_team_draw(rt_team *team, rt_image *image, const rt_watch *watch, rt_status *status);
 
+/* The same of some of each pixel's samples, as rt_renderer_draw_tiles. */
+bool rt_team_draw_range(rt_team *team, const rt_sample_range *range, rt_image *image,
+                        const rt_watch *watch, rt_status *status);
+
 size_t rt_team_count(const rt_team *team);
 rt_team_share rt_team_share_of(const rt_team *team, size_t member);
 

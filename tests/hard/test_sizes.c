@@ -47,7 +47,7 @@ static void draw_tail(const hard_way *way, rt_scene *scene, int side, rt_image *
     test_restore_kernels();
     rt_tiles_init(&tiles, LARGEST, LARGEST, side, 1);
     atomic_store(&tiles.taken, tiles.count - TAIL);
-    assert_good(rt_renderer_draw_tiles(renderer, &tiles, image, NULL, &status), &status);
+    assert_good(rt_renderer_draw_tiles(renderer, &tiles, NULL, image, NULL, &status), &status);
     rt_renderer_free(renderer);
 }
 
