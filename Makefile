@@ -35,9 +35,12 @@ say = @$(if $(V),:,printf '  %-6s %s\n' $(1)) $@
 # ---- Flags ----
 
 LIBRARIES := OpenCL jansson libdeflate
+# pkg-config knows OpenEXR with its C++ libraries alone; its core, in C, needs none of them.
+CFLAGS_LIBRARIES := $(LIBRARIES) OpenEXR
 # Asked only when something is compiled, since `make demo` installs pkg-config first.
-PKG_CFLAGS = $(shell $(PKG_CONFIG) --cflags $(LIBRARIES) stb)
-PKG_LIBS = $(shell $(PKG_CONFIG) --libs $(LIBRARIES))
+PKG_CFLAGS = $(shell $(PKG_CONFIG) --cflags $(CFLAGS_LIBRARIES) stb)
+PKG_LIBS = $(shell $(PKG_CONFIG) --libs $(LIBRARIES)) \
+           $(shell $(PKG_CONFIG) --libs-only-L OpenEXR) -lOpenEXRCore
 
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion $(WERROR)
 # After CFLAGS, since these are what the bits of a picture rest on: a multiply-add is fused where the
@@ -48,7 +51,7 @@ ALL_CFLAGS = -std=c11 -pthread $(WARNINGS) $(CFLAGS) $(EXACT) $(MORE_CFLAGS)
 COMPILE = $(CC) $(ALL_CPPFLAGS) $(ALL_CFLAGS) -MMD -MP -c -o $@ $<
 LINK = $(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $(filter %.o,$^)
 LIBS = $(PKG_LIBS) $(LDLIBS) -lm
-TEST_CPPFLAGS = $(shell $(PKG_CONFIG) --cflags $(LIBRARIES) stb cmocka) -I$(SRC)tests
+TEST_CPPFLAGS = $(shell $(PKG_CONFIG) --cflags $(CFLAGS_LIBRARIES) stb cmocka) -I$(SRC)tests
 FLAGS := $(BUILD)/flags
 
 # ---- Files ----
@@ -102,6 +105,7 @@ $(BUILD)/%.o: $(SRC)src/%.c $(FLAGS)
 # Its JPEG code shifts into the sign bit; that is the library's, and harmless. Its loops over a
 # picture's bytes are vectorised at -O3 only.
 $(BUILD)/image/stb_write.o $(BUILD)/image/stb_read.o: private MORE_CFLAGS := -O3 -fno-sanitize=undefined
+$(BUILD)/image/png.o: private MORE_CFLAGS := -O3
 
 $(BUILD)/%_double.o: $(SRC)src/%.c $(FLAGS)
 	$(call say,CC)
@@ -245,7 +249,7 @@ $(BUILD)/tests/bench/nothing: $(BUILD)/tests/bench/nothing.o $(LIBRARY) $(FLAGS)
 # ---- Debian's packages ----
 
 PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
-            libdeflate-dev libcmocka-dev libgmp-dev pkg-config
+            libdeflate-dev libopenexr-dev libcmocka-dev libgmp-dev pkg-config
 PACKAGES_LINT := clang-format clang-tidy cppcheck
 PACKAGES_CLANG := clang
 PACKAGES_PROCESSORS := qemu-user

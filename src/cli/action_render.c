@@ -75,7 +75,8 @@ static bool write_picture(rt_run *r, const rt_image *image, outputs *out)
 {
     const double start = rt_clock_seconds();
     const rt_options *o = &r->options;
-    const bool good = (!o->output || (rt_image_write(image, o->format, &out->picture, &r->status) &&
+    const bool good = (!o->output || (rt_image_write(image, o->format, &r->scene.encoding,
+                                                     &out->picture, &r->status) &&
                                       rt_output_commit(&out->picture, &r->status))) &&
                       (!o->hits || (rt_image_write_hits(image, &out->hits, &r->status) &&
                                     rt_output_commit(&out->hits, &r->status)));

@@ -49,6 +49,12 @@ static bool read_effects(rt_options *o, const char *value)
     return rt_effects_mode_of_name(value, &o->effects);
 }
 
+static bool read_format(rt_options *o, const char *value)
+{
+    o->format = rt_image_format_named(value);
+    return o->format != NULL;
+}
+
 static bool read_lanes(rt_options *o, const char *value)
 {
     return read_whole(value, strlen(value), 1, 16, &o->lanes) &&
@@ -153,6 +159,9 @@ static const struct row {
     {"explain", 0, NULL, read_explain, NULL,
      "print which effects the scene calls for, by which line, and what\n"
      "each costs on this device\n"},
+    {"format", 0, "NAME", read_format, "png, bmp, tga, jpg, hdr, exr or png16",
+     "what the picture is written as, whatever its name ends in: png,\n"
+     "bmp, tga, jpg, hdr, exr or png16, a PNG of 16 bits\n"},
     {"grammar", 0, NULL, read_grammar, NULL, "print the scene format as a table and exit\n"},
     {"help", 'h', NULL, read_help, NULL, "print this help and exit\n"},
     {"hits", 0, "FILE", read_hits, NULL,
@@ -313,6 +322,8 @@ static bool check(rt_options *o, rt_status *status)
         return false;
     if (!o->output && !o->verify && !o->hits && !o->stats && !o->study && !o->explain)
         return fail_usage(status, "no output is given", "");
+    if (o->format && !o->output)
+        return fail_usage(status, "--format is of the picture, and none is to be written", "");
     if (o->quiet)
         o->progress = RT_PROGRESS_NEVER;
     if (o->output && !o->format) {
@@ -397,7 +408,8 @@ bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *stat
         options->scene = argv[optind];
     if (optind + 1 < argc) {
         options->output = argv[optind + 1];
-        options->format = rt_image_format_of(options->output);
+        if (!options->format)
+            options->format = rt_image_format_of(options->output);
     }
     return check(options, status);
 }

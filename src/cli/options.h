@@ -35,7 +35,7 @@ typedef struct rt_options {
     enum rt_action action;
     const char *scene;             /* "-" for standard input */
     const char *output;            /* NULL where no picture is asked for; "-" for standard output */
-    const rt_image_format *format; /* of `output`; NULL for none that there is */
+    const rt_image_format *format; /* of `output`, by its name or --format; NULL for none */
     enum rt_target target;
     enum rt_accel accel;
     bool has_accuracy; /* else the scene decides */

@@ -14,6 +14,7 @@ _rt()
     --accel) words="bvh none" ;;
     --accuracy) words="fast standard robust double" ;;
     --effects) words="scene all none" ;;
+    --format) words="png bmp tga jpg hdr exr png16" ;;
     --lanes) words="1 4 8 16" ;;
     --progress) words="auto always never" ;;
     --device | -d)
@@ -36,9 +37,9 @@ _rt()
         ;;
     *)
         [[ $current == -* ]] || return
-        words="--accel= --accuracy= --device= --effects= --explain --grammar --help --hits= --lanes=
-               --list-devices --no-cost --progress= --quiet --size= --stats= --study= --study-levels=
-               --study-repeats= --study-samples= --tile= --verify --version"
+        words="--accel= --accuracy= --device= --effects= --explain --format= --grammar --help --hits=
+               --lanes= --list-devices --no-cost --progress= --quiet --size= --stats= --study=
+               --study-levels= --study-repeats= --study-samples= --tile= --verify --version"
         ;;
     esac
     # In a list only what follows the last comma is completed.

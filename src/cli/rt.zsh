@@ -15,6 +15,7 @@ _arguments -s -S \
     '(-d --device)'{-d+,--device=}'[where to render]:device:_rt_devices' \
     '--effects=[what is compiled into the kernels]:which:(scene all none)' \
     '--explain[print what effects the scene calls for and what they cost]' \
+    '--format=[what the picture is written as]:format:(png bmp tga jpg hdr exr png16)' \
     '(- *)--grammar[print the scene format as a table]' \
     '(- *)'{-h,--help}'[print a short help]' \
     '--hits=[write what each pixel hits]:file:_files' \
@@ -33,4 +34,4 @@ _arguments -s -S \
     '--verify[render with the scalar path too and compare]' \
     '(- *)--version[print the version]' \
     '1:scene:_files -g "*.txt"' \
-    '2:picture:_files -g "*.(png|bmp|tga|jpg|jpeg|hdr)"'
+    '2:picture:_files -g "*.(png|bmp|tga|jpg|jpeg|hdr|exr)"'

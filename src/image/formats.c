@@ -6,44 +6,44 @@
 #include <string.h>
 #include <strings.h>
 
-#include "image/stb_write.h"
+#include <stb_image_write.h>
 
+#include "image/exr.h"
+#include "image/png.h"
+
+#define COMPONENTS 3
 #define JPG_QUALITY 95
-/* PNG's filter Up for every row. Trying all five on each row takes as long as the compression and
- * makes rendered pictures no smaller. */
-#define PNG_FILTER_UP 2
 
-static int encode_png(rt_image_take *take, void *sink, int width, int height, const void *pixels)
+static int encode_bmp(rt_image_take *take, void *sink, const rt_image_pixels *p)
 {
-    stbi_write_force_png_filter = PNG_FILTER_UP;
-    return stbi_write_png_to_func(take, sink, width, height, 3, pixels, 3 * width);
+    return stbi_write_bmp_to_func(take, sink, p->width, p->height, COMPONENTS, p->pixels);
 }
 
-static int encode_bmp(rt_image_take *take, void *sink, int width, int height, const void *pixels)
+static int encode_tga(rt_image_take *take, void *sink, const rt_image_pixels *p)
 {
-    return stbi_write_bmp_to_func(take, sink, width, height, 3, pixels);
+    return stbi_write_tga_to_func(take, sink, p->width, p->height, COMPONENTS, p->pixels);
 }
 
-static int encode_tga(rt_image_take *take, void *sink, int width, int height, const void *pixels)
+static int encode_jpg(rt_image_take *take, void *sink, const rt_image_pixels *p)
 {
-    return stbi_write_tga_to_func(take, sink, width, height, 3, pixels);
+    return stbi_write_jpg_to_func(take, sink, p->width, p->height, COMPONENTS, p->pixels,
+                                  JPG_QUALITY);
 }
 
-static int encode_jpg(rt_image_take *take, void *sink, int width, int height, const void *pixels)
+static int encode_hdr(rt_image_take *take, void *sink, const rt_image_pixels *p)
 {
-    return stbi_write_jpg_to_func(take, sink, width, height, 3, pixels, JPG_QUALITY);
-}
-
-static int encode_hdr(rt_image_take *take, void *sink, int width, int height, const void *pixels)
-{
-    return stbi_write_hdr_to_func(take, sink, width, height, 3, pixels);
+    return stbi_write_hdr_to_func(take, sink, p->width, p->height, COMPONENTS, p->pixels);
 }
 
 /* The first is that of standard output. */
 static const rt_image_format formats[] = {
-    {{"png", NULL}, false, encode_png}, {{"bmp", NULL}, false, encode_bmp},
-    {{"tga", NULL}, false, encode_tga}, {{"jpg", "jpeg"}, false, encode_jpg},
-    {{"hdr", NULL}, true, encode_hdr},
+    {"png", {"png"}, RT_IMAGE_8_BITS, rt_png_encode_8},
+    {"bmp", {"bmp"}, RT_IMAGE_8_BITS, encode_bmp},
+    {"tga", {"tga"}, RT_IMAGE_8_BITS, encode_tga},
+    {"jpg", {"jpg", "jpeg"}, RT_IMAGE_8_BITS, encode_jpg},
+    {"hdr", {"hdr"}, RT_IMAGE_FLOATS, encode_hdr},
+    {"exr", {"exr"}, RT_IMAGE_FLOATS, rt_exr_encode},
+    {"png16", {NULL}, RT_IMAGE_16_BITS, rt_png_encode_16},
 };
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -60,14 +60,39 @@ const rt_image_format *rt_image_format_of(const char *path)
     return NULL;
 }
 
+const rt_image_format *rt_image_format_named(const char *name)
+{
+    for (size_t i = 0; i < FORMATS; ++i)
+        if (strcasecmp(name, formats[i].name) == 0)
+            return &formats[i];
+    return NULL;
+}
+
+/* The names, or the extensions of those that have one. */
+static void list(bool names, const char *before, char *text, size_t size)
+{
+    size_t left = 0, length = 0;
+    for (size_t i = 0; i < FORMATS; ++i)
+        left += names || formats[i].extensions[0];
+    const size_t count = left;
+    for (size_t i = 0; i < FORMATS && length < size; ++i) {
+        const char *word = names ? formats[i].name : formats[i].extensions[0];
+        if (!word)
+            continue;
+        const char *comma = left == count ? "" : left > 1 ? ", " : " or ";
+        length += (size_t)snprintf(text + length, size - length, "%s%s%s", comma, before, word);
+        --left;
+    }
+}
+
 void rt_image_formats_list(const char *before, char *text, size_t size)
 {
-    size_t length = 0;
-    for (size_t i = 0; i < FORMATS && length < size; ++i) {
-        const char *comma = i == 0 ? "" : i + 1 < FORMATS ? ", " : " or ";
-        length += (size_t)snprintf(text + length, size - length, "%s%s%s", comma, before,
-                                   formats[i].extensions[0]);
-    }
+    list(false, before, text, size);
+}
+
+void rt_image_formats_list_names(char *text, size_t size)
+{
+    list(true, "", text, size);
 }
 
 /* Encoders give their bytes to a callback that cannot refuse them: after the first failure the rest
@@ -84,16 +109,27 @@ static void take(void *context, void *bytes, int length)
     s->good = s->good && rt_output_write(s->output, bytes, (size_t)length, s->status);
 }
 
-bool rt_image_write(const rt_image *image, const rt_image_format *format, rt_output *output,
-                    rt_status *status)
+/* The numbers that a format takes, from malloc, or NULL after an error. */
+static void *numbers_of(const rt_image *image, const rt_image_format *format,
+                        const rt_encoding *encoding, rt_status *status)
+{
+    if (format->numbers == RT_IMAGE_8_BITS)
+        return rt_encode_8(image, encoding, status);
+    return rt_encode_16(image, encoding, status);
+}
+
+bool rt_image_write(const rt_image *image, const rt_image_format *format,
+                    const rt_encoding *encoding, rt_output *output, rt_status *status)
 {
     sink s = {output, status, true};
-    uint8_t *steps = NULL;
-    if (!format->takes_floats && !(steps = rt_image_steps(image, status)))
+    const bool has_floats = format->numbers == RT_IMAGE_FLOATS;
+    void *numbers = has_floats ? NULL : numbers_of(image, format, encoding, status);
+    if (!has_floats && !numbers)
         return false;
-    const void *pixels = format->takes_floats ? (const void *)image->rgb : steps;
-    const int encoded = format->encode(take, &s, image->width, image->height, pixels);
-    free(steps);
+    const rt_image_pixels picture = {image->width, image->height, encoding->transfer,
+                                     has_floats ? image->rgb : numbers};
+    const int encoded = format->encode(take, &s, &picture);
+    free(numbers);
     if (!encoded && s.good)
         return rt_status_fail(status, RT_ERROR_OUTPUT, "rt: the picture could not be encoded");
     return s.good;

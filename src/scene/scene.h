@@ -9,6 +9,7 @@
 
 #include "common/accuracy.h"
 #include "common/status.h"
+#include "image/encoding.h"
 #include "kernels/layout.h"
 #include "scene/primitive.h"
 #include "scene/triangle.h"
@@ -54,6 +55,7 @@ typedef struct rt_scene {
     int samples; /* rays a pixel, 1 up */
     enum rt_filter filter;
     uint32_t seed; /* of the sample points: another one gives other noise */
+    rt_encoding encoding; /* of the picture's file */
     int depth; /* mirror and refracted rays in a row, at most */
     rt_camera camera;
     rt_vec3 background, ambient;

@@ -4,7 +4,7 @@
 
 bool rt_scene_apply_image(rt_parser *p, rt_source *src, const rt_line *l)
 {
-    enum { WIDTH, HEIGHT, SAMPLES, FILTER, SEED };
+    enum { WIDTH, HEIGHT, SAMPLES, FILTER, SEED, ENCODING, EXPOSURE };
     rt_scene *scene = p->scene;
     scene->width = rt_value_count(&l->values[WIDTH], scene->width);
     scene->height = rt_value_count(&l->values[HEIGHT], scene->height);
@@ -12,6 +12,10 @@ bool rt_scene_apply_image(rt_parser *p, rt_source *src, const rt_line *l)
     if (l->values[FILTER].given)
         scene->filter = l->values[FILTER].choice == 0 ? RT_FILTER_BOX : RT_FILTER_TENT;
     scene->seed = (uint32_t)rt_value_count(&l->values[SEED], (int)scene->seed);
+    if (l->values[ENCODING].given)
+        scene->encoding.transfer =
+            l->values[ENCODING].choice == 0 ? RT_TRANSFER_LINEAR : RT_TRANSFER_SRGB;
+    scene->encoding.exposure = rt_value_number(&l->values[EXPOSURE], scene->encoding.exposure);
     scene->image_place = rt_source_place(src);
     const long long pixels = (long long)scene->width * scene->height;
     return pixels <= RT_IMAGE_PIXELS_MAX ||

@@ -36,7 +36,7 @@ static void good_lines(void **state)
     assert_int_equal(read_line("s.txt o.png", &o, message, sizeof message), RT_OK);
     assert_string_equal(o.scene, "s.txt");
     assert_string_equal(o.output, "o.png");
-    assert_string_equal(o.format->extensions[0], "png");
+    assert_string_equal(o.format->name, "png");
     assert_int_equal(o.target, RT_TARGET_DEVICE);
     assert_null(o.device);
     assert_int_equal(read_line("s.txt --size 640x480 o.hdr --device=1:0 --lanes 8 --tile 32 -q", &o,
@@ -44,7 +44,7 @@ static void good_lines(void **state)
                      RT_OK);
     assert_int_equal(o.width, 640);
     assert_int_equal(o.height, 480);
-    assert_string_equal(o.format->extensions[0], "hdr");
+    assert_string_equal(o.format->name, "hdr");
     assert_string_equal(o.device, "1:0");
     assert_int_equal(o.lanes, 8);
     assert_int_equal(o.tile, 32);
@@ -63,6 +63,10 @@ static void good_lines(void **state)
     assert_int_equal(read_line("--progress always -q s.txt o.png", &o, message, sizeof message),
                      RT_OK);
     assert_int_equal(o.progress, RT_PROGRESS_NEVER);
+    assert_int_equal(read_line("s.txt o.jpg --format png16", &o, message, sizeof message), RT_OK);
+    assert_string_equal(o.format->name, "png16");
+    assert_int_equal(read_line("--format exr s.txt -", &o, message, sizeof message), RT_OK);
+    assert_string_equal(o.format->name, "exr");
     assert_int_equal(read_line("--verify s.txt", &o, message, sizeof message), RT_OK);
     assert_true(o.verify);
     assert_int_equal(read_line("--stats - s.txt", &o, message, sizeof message), RT_OK);
@@ -151,6 +155,8 @@ static const char *const wrong_lines[][2] = {
     {"s.txt", "no output is given"},
     {"s.txt o.gif", "'o.gif' does not end in .png"},
     {"s.txt png", "does not end in"},
+    {"s.txt o.png --format gif", "--format takes png, bmp, tga, jpg, hdr, exr or png16"},
+    {"--verify s.txt --format png", "--format is of the picture, and none is to be written"},
     {"s.txt o.png more", "one argument too many: more"},
     {"--frobnicate s.txt o.png", "cannot make sense of --frobnicate"},
     {"-x s.txt o.png", "cannot make sense of"},
@@ -313,12 +319,17 @@ static void the_completions_have_the_options(void **state)
     free(help);
 }
 
-/* The pages list the formats of pictures as --help does. */
+/* The pages list the formats of pictures as --help does, and --format takes their names. */
 static void the_pages_have_the_formats(void **state)
 {
     (void)state;
     static const char *const files[] = {"src/cli/rt.1", "src/cli/README.md"};
-    char formats[100];
+    char formats[100], message[512];
+    rt_options o;
+    rt_image_formats_list_names(formats, sizeof formats);
+    assert_int_equal(read_line("s.txt o.png --format x", &o, message, sizeof message),
+                     RT_ERROR_USAGE);
+    assert_non_null(strstr(message, formats));
     rt_image_formats_list("", formats, sizeof formats);
     for (size_t i = 0; i < sizeof files / sizeof *files; ++i) {
         char *text = test_read_file(files[i], NULL);

@@ -57,6 +57,32 @@ static void from_any_folder_by_pipes(void **state)
                      0);
 }
 
+/* A sky of 0.18 at one stop down: 0.09 linear, 0.3317 by sRGB's curve. */
+static void pictures_for_screens_and_for_those_who_measure(void **state)
+{
+    (void)state;
+    static const char scene[] = "rt 1\nbackground 0.18 0.18 0.18\nimage width 4 height 4";
+    char text[200];
+    snprintf(text, sizeof text, "%s encoding srgb exposure -1\n", scene);
+    test_write_text(test_path("srgb.txt"), text);
+    snprintf(text, sizeof text, "%s exposure -1\n", scene);
+    test_write_text(test_path("linear.txt"), text);
+    assert_int_equal(run("for s in srgb linear; do for f in tga exr png16; do"
+                         " $RT -q -d scalar --format $f $T/$s.txt $T/$s.$f || exit; done; done"),
+                     0);
+    /* Behind a TGA's head of 18 bytes, a run of four pixels. */
+    assert_int_equal(
+        run("tail -c +20 $T/srgb.tga | head -c 3 | od -An -tu1 | grep -q '85 *85 *85'"), 0);
+    assert_int_equal(
+        run("tail -c +20 $T/linear.tga | head -c 3 | od -An -tu1 | grep -q '23 *23 *23'"), 0);
+    assert_int_equal(run("cmp $T/srgb.exr $T/linear.exr"), 0);
+    assert_int_equal(run("head -c 45 $T/srgb.png16 | grep -aq sRGB &&"
+                         " head -c 45 $T/linear.png16 | grep -aq gAMA"),
+                     0);
+    /* An option is there for standard output too, and the same bytes go there. */
+    assert_int_equal(run("$RT -q -d scalar --format exr $T/srgb.txt - | cmp - $T/srgb.exr"), 0);
+}
+
 static void a_bad_scene_is_1(void **state)
 {
     (void)state;
@@ -316,6 +342,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(success),
         cmocka_unit_test(from_any_folder_by_pipes),
+        cmocka_unit_test(pictures_for_screens_and_for_those_who_measure),
         cmocka_unit_test(a_bad_scene_is_1),
         cmocka_unit_test(misuse_is_2),
         cmocka_unit_test(no_device_is_3),

@@ -108,30 +108,43 @@ static void formats_by_extension(void **state)
     static const char *const paths[][2] = {
         {"a.png", "png"}, {"a.b/c.PNG", "png"}, {"a.jpeg", "jpg"}, {"a.JPG", "jpg"},
         {"x.tga", "tga"}, {"x.bmp", "bmp"},     {"x.hdr", "hdr"},  {"-", "png"},
-        {"png", NULL},    {"a.png/b", NULL},    {"a.gif", NULL},   {"a.", NULL}};
+        {"x.exr", "exr"}, {"x.png16", NULL},    {"png", NULL},     {"a.png/b", NULL},
+        {"a.gif", NULL},  {"a.", NULL}};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i) {
         const rt_image_format *format = rt_image_format_of(paths[i][0]);
         if (paths[i][1])
-            assert_string_equal(format->extensions[0], paths[i][1]);
+            assert_string_equal(format->name, paths[i][1]);
         else
             assert_null(format);
     }
     char list[64], cut[8];
     rt_image_formats_list(".", list, sizeof list);
-    assert_string_equal(list, ".png, .bmp, .tga, .jpg or .hdr");
+    assert_string_equal(list, ".png, .bmp, .tga, .jpg, .hdr or .exr");
     rt_image_formats_list("", cut, sizeof cut);
     assert_string_equal(cut, "png, bm");
+    rt_image_formats_list_names(list, sizeof list);
+    assert_string_equal(list, "png, bmp, tga, jpg, hdr, exr or png16");
+    assert_string_equal(rt_image_format_named("PNG16")->name, "png16");
+    assert_null(rt_image_format_named("jpeg"));
 }
 
-static const char *write_as(const rt_image *image, const char *name)
+static const rt_encoding linear = {RT_TRANSFER_LINEAR, 0.0f}, srgb = {RT_TRANSFER_SRGB, 0.0f};
+
+static const char *write_by(const rt_image *image, const char *name, const rt_image_format *format,
+                            const rt_encoding *encoding)
 {
     rt_status status = RT_STATUS_INIT;
     rt_output output;
     const char *path = test_path(name);
     assert_good(rt_output_open(&output, path, &status), &status);
-    assert_good(rt_image_write(image, rt_image_format_of(path), &output, &status), &status);
+    assert_good(rt_image_write(image, format, encoding, &output, &status), &status);
     assert_good(rt_output_commit(&output, &status), &status);
     return path;
+}
+
+static const char *write_as(const rt_image *image, const char *name)
+{
+    return write_by(image, name, rt_image_format_of(name), &linear);
 }
 
 static void files_hold_the_picture(void **state)
@@ -185,6 +198,96 @@ static void png_is_lossless_at_every_size(void **state)
     }
 }
 
+/* 16 bits, both bytes of which count. */
+static void png16_is_lossless_at_every_size(void **state)
+{
+    (void)state;
+    static const int sizes[][2] = {{1, 1}, {1, 64}, {21, 1}, {64, 3}, {257, 131}};
+    test_random random = {8};
+    for (size_t s = 0; s < sizeof sizes / sizeof *sizes; ++s) {
+        rt_image image;
+        rt_status status = RT_STATUS_INIT;
+        int width = 0, height = 0, components = 0;
+        assert_good(rt_image_init(&image, sizes[s][0], sizes[s][1], false, &status), &status);
+        const int count = 3 * image.width * image.height;
+        for (int i = 0; i < count; ++i)
+            image.rgb[i] = test_random_float(&random, 0.0f, 1.0f);
+        const char *path = write_by(&image, "c.png", rt_image_format_named("png16"), &linear);
+        assert_true(stbi_is_16_bit(path));
+        unsigned short *pixels = stbi_load_16(path, &width, &height, &components, 3);
+        assert_non_null(pixels);
+        assert_true(width == image.width && height == image.height && components == 3);
+        for (int i = 0; i < count; ++i)
+            assert_int_equal(pixels[i], (int)floor(65535.0 * (double)image.rgb[i] + 0.5));
+        stbi_image_free(pixels);
+        rt_image_clear(&image);
+    }
+}
+
+/* The steps of sRGB reach the file, in all formats of integers. */
+static void integers_are_encoded(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"d.png", "d.bmp", "d.tga", "d.jpg"};
+    rt_image image;
+    rt_status status = RT_STATUS_INIT;
+    int width = 0, height = 0, components = 0;
+    assert_good(rt_image_init(&image, 16, 16, false, &status), &status);
+    for (int i = 0; i < 3 * 256; ++i)
+        image.rgb[i] = 0.18f;
+    for (size_t f = 0; f < 4; ++f) {
+        const char *path = write_by(&image, names[f], rt_image_format_of(names[f]), &srgb);
+        unsigned char *pixels = stbi_load(path, &width, &height, &components, 3);
+        assert_non_null(pixels);
+        for (int i = 0; i < 3 * 256; ++i)
+            assert_near(pixels[i], 118, f == 3);
+        stbi_image_free(pixels);
+    }
+    const char *path = write_by(&image, "d.png", rt_image_format_named("png16"), &srgb);
+    unsigned short *pixels = stbi_load_16(path, &width, &height, &components, 3);
+    assert_non_null(pixels);
+    assert_int_equal(pixels[0], 30235);
+    stbi_image_free(pixels);
+    rt_image_clear(&image);
+}
+
+/* The bytes from IHDR's bit depth to the picture, and the last: checksums as everywhere. */
+static void png_says_what_its_integers_are(void **state)
+{
+    (void)state;
+    static const unsigned char of_linear[] = {0, 0, 0,    4,    'g',  'A',  'M',  'A',
+                                              0, 1, 0x86, 0xa0, 0x31, 0xe8, 0x96, 0x5f};
+    static const unsigned char of_srgb[] = {
+        0, 0, 0,   1,   's', 'R', 'G', 'B', 0,    0xae, 0xce, 0x1c, 0xe9, 0,   0,
+        0, 4, 'g', 'A', 'M', 'A', 0,   0,   0xb1, 0x8f, 0x0b, 0xfc, 0x61, 0x05};
+    static const unsigned char of_end[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+    static const struct {
+        const char *format;
+        const rt_encoding *encoding;
+        const unsigned char *chunks;
+        size_t length;
+        int bits;
+    } files[] = {{"png", &linear, of_linear, sizeof of_linear, 8},
+                 {"png", &srgb, of_srgb, sizeof of_srgb, 8},
+                 {"png16", &linear, of_linear, sizeof of_linear, 16},
+                 {"png16", &srgb, of_srgb, sizeof of_srgb, 16}};
+    rt_image image;
+    make(&image, false);
+    for (size_t f = 0; f < sizeof files / sizeof *files; ++f) {
+        size_t length = 0;
+        char *bytes = test_read_file(
+            write_by(&image, "e.png", rt_image_format_named(files[f].format), files[f].encoding),
+            &length);
+        assert_int_equal(bytes[24], files[f].bits);
+        assert_int_equal(bytes[25], 2); /* red, green, blue */
+        assert_memory_equal(bytes + 33, files[f].chunks, files[f].length);
+        assert_memory_equal(bytes + 33 + files[f].length + 4, "IDAT", 4);
+        assert_memory_equal(bytes + length - sizeof of_end, of_end, sizeof of_end);
+        free(bytes);
+    }
+    rt_image_clear(&image);
+}
+
 static void hdr_keeps_what_is_above_one(void **state)
 {
     (void)state;
@@ -235,6 +338,9 @@ int main(void)
         cmocka_unit_test(formats_by_extension),
         cmocka_unit_test(files_hold_the_picture),
         cmocka_unit_test(png_is_lossless_at_every_size),
+        cmocka_unit_test(png16_is_lossless_at_every_size),
+        cmocka_unit_test(integers_are_encoded),
+        cmocka_unit_test(png_says_what_its_integers_are),
         cmocka_unit_test(hdr_keeps_what_is_above_one),
         cmocka_unit_test(hit_records_are_little_endian),
     };

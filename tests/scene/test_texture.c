@@ -2,10 +2,10 @@
 #include "support/support.h"
 
 #include <stdio.h>
+#include <stb_image_write.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image/stb_write.h"
 #include "scene/texture.h"
 
 /* 3x2, row by row from the top: red, green, blue / white, grey, black. */
