@@ -1,4 +1,5 @@
 #include "cli/actions.h"
+#include "cli/picture_check.h"
 #include "common/clock.h"
 
 typedef struct outputs {
@@ -37,7 +38,8 @@ static bool make_team(rt_run *r, bool with_hits, rt_team **team)
 /* Leaves *team NULL for the scalar path. */
 static bool draw(rt_run *r, rt_image *image, rt_team **team)
 {
-    const bool with_hits = r->options.hits || r->options.verify;
+    /* The scalar path has them anyway, and what a black picture hits is asked. */
+    const bool with_hits = r->options.hits || r->options.verify || !r->chosen;
     if (!rt_image_init(image, r->scene.width, r->scene.height, with_hits, &r->status) ||
         (r->chosen && !make_team(r, with_hits, team)))
         return false;
@@ -103,7 +105,7 @@ bool rt_action_render(rt_run *r)
     rt_image image = {0};
     rt_team *team = NULL;
     bool good = rt_run_begin(r) && open_outputs(r, &out) && rt_run_choose_devices(r) &&
-                draw(r, &image, &team);
+                draw(r, &image, &team) && rt_run_check_picture(r, &image);
     if (good) {
         if (team)
             tell_what_is_cut(r, team);

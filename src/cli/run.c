@@ -9,6 +9,7 @@
 #include "common/clock.h"
 #include "common/parallel.h"
 #include "reference/scalar.h"
+#include "scene/check.h"
 #include "scene_file/read.h"
 
 /* Called by one thread at a time, as a team promises. */
@@ -63,6 +64,8 @@ static bool read_scene(rt_run *r)
     r->stats.parse = rt_clock_seconds() - start;
     r->effects = rt_effects_of(&r->scene);
     r->effects.mode = o->effects;
+    if (!o->quiet && !rt_scene_check(&r->scene, &r->effects, &r->doubts, &r->status))
+        return false;
     rt_run_warn(r);
     return true;
 }

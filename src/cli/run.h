@@ -21,6 +21,7 @@ typedef struct rt_run {
     rt_progress progress;
     rt_scene scene;
     rt_effects effects; /* of the scene */
+    int doubts;         /* warnings that rt_scene_check has given */
     rt_device_opening opening;
     rt_device_list devices;
     const rt_device **chosen; /* owned: room for all devices; NULL until they are chosen */

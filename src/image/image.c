@@ -75,6 +75,22 @@ uint8_t *rt_image_steps(const rt_image *image, rt_status *status)
     return steps;
 }
 
+#define GRID_COARSEST 64
+
+bool rt_image_every(const rt_image *image,
+                    bool (*holds)(const void *context, int x, int y, const float rgb[3]),
+                    const void *context)
+{
+    for (int step = GRID_COARSEST; step > 0; step /= 4)
+        for (int y = 0; y < image->height; y += step)
+            for (int x = 0; x < image->width; x += step) {
+                const size_t pixel = (size_t)y * (size_t)image->width + (size_t)x;
+                if (!holds(context, x, y, image->rgb + 3 * pixel))
+                    return false;
+            }
+    return true;
+}
+
 static bool is_finite_pixel(const float *rgb)
 {
     return isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]);

@@ -24,6 +24,12 @@ uint8_t rt_image_step(float component);
 /* The steps of all components, in their order, from malloc; NULL after an error. */
 uint8_t *rt_image_steps(const rt_image *image, rt_status *status);
 
+/* Whether something holds of every pixel. Those of a coarse grid are asked first, so that the end
+ * is soon where it does not. */
+bool rt_image_every(const rt_image *image,
+                    bool (*holds)(const void *context, int x, int y, const float rgb[3]),
+                    const void *context);
+
 /* How two pictures of one size differ. Steps are 8-bit steps. */
 typedef struct rt_image_difference {
     size_t hits;          /* hit records that differ in a bit; 0 where either has none */

@@ -56,7 +56,7 @@ typedef struct rt_scene {
     enum rt_filter filter;
     uint32_t seed; /* of the sample points: another one gives other noise */
     rt_encoding encoding; /* of the picture's file */
-    int depth; /* mirror and refracted rays in a row, at most */
+    int depth;            /* mirror and refracted rays in a row, at most */
     rt_camera camera;
     rt_vec3 background, ambient;
     bool has_gradient;      /* the background goes from `background` to `background_top` */

@@ -83,6 +83,48 @@ static void pictures_for_screens_and_for_those_who_measure(void **state)
     assert_int_equal(run("$RT -q -d scalar --format exr $T/srgb.txt - | cmp - $T/srgb.exr"), 0);
 }
 
+/* Writes a scene of a red ball straight ahead, and more. */
+static void write_ball(const char *name, const char *more)
+{
+    char text[400];
+    snprintf(text, sizeof text,
+             "rt 1\nimage width 16 height 16\nmaterial red kd 1 0 0\n"
+             "sphere center 0 0 -5 radius 1 material red\n%s\n",
+             more);
+    test_write_text(test_path(name), text);
+}
+
+/* One warning each, on the device and on the scalar path, and none where none is wanted. */
+static void black_pictures_speak(void **state)
+{
+    (void)state;
+    static const char *const scenes[][2] = {
+        {"", "the picture is black, since there is no light"},
+        {"light point at 0 0 0\ncamera at 0 0 1", "nothing is in view"},
+        {"light point at 0 0 0\ncamera at 0 0 1\nbackground 1 1 1 top 0 0 1", "nothing is in view"},
+        {"light point at 0 0 0\ncamera from 0 0 -5 at 0 0 0", "the camera is inside of a sphere"},
+        {"light point at 0 0 -50", "the picture is black, since no light reaches"},
+        {"light point at 0 0 0", NULL},
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; ++i) {
+        write_ball("black.txt", scenes[i][0]);
+        for (int scalar = 0; scalar < 2; ++scalar) {
+            assert_int_equal(run(scalar ? "$RT -d scalar $T/black.txt $T/black.png"
+                                        : "$RT $T/black.txt $T/black.png"),
+                             0);
+            if (scenes[i][1])
+                assert_says(scenes[i][1]);
+            assert_int_equal(test_count_text(errors, ": warning: "), scenes[i][1] != NULL);
+        }
+        assert_int_equal(run("$RT -q $T/black.txt $T/black.png"), 0);
+        assert_string_equal(errors, "");
+    }
+    /* Where hit records are there already, they are asked. */
+    write_ball("black.txt", scenes[1][0]);
+    assert_int_equal(run("$RT --hits $T/black.hits $T/black.txt"), 0);
+    assert_says("nothing is in view");
+}
+
 static void a_bad_scene_is_1(void **state)
 {
     (void)state;
@@ -343,6 +385,7 @@ int main(void)
         cmocka_unit_test(success),
         cmocka_unit_test(from_any_folder_by_pipes),
         cmocka_unit_test(pictures_for_screens_and_for_those_who_measure),
+        cmocka_unit_test(black_pictures_speak),
         cmocka_unit_test(a_bad_scene_is_1),
         cmocka_unit_test(misuse_is_2),
         cmocka_unit_test(no_device_is_3),
