@@ -11,11 +11,9 @@
 
 static void draw(const char *text, rt_scene *s, rt_image *image)
 {
-    rt_status status = RT_STATUS_INIT;
     test_scene(s, text);
     if (s->width == 512)
         s->width = s->height = 48;
-    assert_good(rt_image_init(image, s->width, s->height, false, &status), &status);
     test_draw_scalar(s, image);
 }
 
@@ -61,9 +59,9 @@ static void no_pixel_is_passed_over(void **state)
     (void)state;
     rt_scene s;
     rt_image image;
-    draw("background 0.5 0.5 0.5\nimage width 131 height 67", &s, &image);
+    draw("background 0.5 0.5 0.5\nimage width 40 height 20", &s, &image);
     assert_true(rt_scene_is_backdrop(&s, &image));
-    for (int i = 0; i < 131 * 67; ++i) {
+    for (int i = 0; i < 40 * 20; ++i) {
         image.rgb[3 * i + i % 3] = i % 2 ? NAN : 0.6f;
         assert_false(rt_scene_is_backdrop(&s, &image));
         image.rgb[3 * i + i % 3] = 0.5f;
