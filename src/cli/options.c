@@ -241,8 +241,8 @@ void rt_options_help(FILE *out)
         print_row(&rows[i], out);
     fputs("\n"
           "Exit codes: 0 success, 1 bad scene, 2 bad usage, 3 no usable OpenCL device or a kernel\n"
-          "that does not build, 4 output cannot be written, 5 --verify found a difference,\n"
-          "130 interrupted.\n",
+          "that does not build, 4 output cannot be written, 5 --verify found a difference\n"
+          "or pixels that are not finite, 130 interrupted.\n",
           out);
 }
 

@@ -110,13 +110,14 @@ rt_image_difference rt_image_compare(const rt_image *a, const rt_image *b)
             squares += (double)(step * step);
         }
         d.max_step = worst > d.max_step ? worst : d.max_step;
-        d.non_finite += !is_finite_pixel(p) || !is_finite_pixel(q);
+        const bool is_finite = is_finite_pixel(p) && is_finite_pixel(q);
+        d.non_finite += !is_finite;
         /* Bits are what is compared, not values. */
         const bool hit_off =
             a->hits && b->hits && memcmp(&a->hits[i], &b->hits[i], sizeof *a->hits) != 0;
         d.hits += hit_off;
         d.pixels += worst > 1;
-        if ((hit_off || worst > 1) && d.first_x < 0) {
+        if ((hit_off || worst > 1 || !is_finite) && d.first_x < 0) {
             d.first_x = (int)(i % (size_t)a->width);
             d.first_y = (int)(i / (size_t)a->width);
         }

@@ -37,7 +37,7 @@ typedef struct rt_image_difference {
     int max_step;         /* the largest difference of a component */
     double rms_step;      /* root mean square over all components */
     size_t non_finite;    /* pixels of either picture with a component that is not finite */
-    int first_x, first_y; /* the first pixel whose hit or colour is off; -1 if none */
+    int first_x, first_y; /* the first pixel that any of these counts; -1 if none */
 } rt_image_difference;
 
 rt_image_difference rt_image_compare(const rt_image *a, const rt_image *b);

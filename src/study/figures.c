@@ -69,7 +69,7 @@ rt_study_error rt_study_error_of(const rt_image *picture, const rt_image *refere
             const double off = 255.0 * (clamped(p) - clamped(q));
             worst = steps > worst ? steps : worst;
             squares += off * off;
-            finite = finite && isfinite(p);
+            finite = finite && isfinite(p) && isfinite(q);
         }
         e.max_step = worst > e.max_step ? worst : e.max_step;
         e.over_0 += worst > 0;

@@ -31,7 +31,7 @@ typedef struct rt_study_error {
         over_8;        /* pixels with a component off by more than so many whole steps */
     int max_step;      /* largest difference, in whole steps */
     double rms;        /* root mean square, in steps, without rounding to whole ones */
-    size_t non_finite; /* pixels of the first picture */
+    size_t non_finite; /* pixels with a component that is not finite in either picture */
 } rt_study_error;
 
 rt_study_error rt_study_error_of(const rt_image *picture, const rt_image *reference);

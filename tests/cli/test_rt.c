@@ -213,6 +213,12 @@ static void a_difference_is_5(void **state)
     test_mutate_kernels(MUTANT_FARTHEST_HIT);
     assert_int_equal(run("$RT --verify scenes/icecream.txt --size 100x80 >$T/report"), 5);
     test_restore_kernels();
+    /* Both sides are infinite: nothing differs, and nothing has been compared. */
+    assert_int_equal(run("{ sed 's/^ambient .*/ambient 3e38 0 0/' scenes/icecream.txt; echo; echo "
+                         "light directional direction 1 -1 -1 color 3e38 0 0; } >$T/bright.txt;"
+                         "$RT --verify $T/bright.txt --size 100x80 >$T/report"),
+                     5);
+    assert_says("not finite, first at pixel");
 }
 
 /* What takes the scalar path minutes, and seconds with a hundred processors; a row takes no time.

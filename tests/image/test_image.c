@@ -93,6 +93,13 @@ static void different_pictures(void **state)
     assert_near(d.rms_step, sqrt((100.0 + 1.0 + 193.0 * 193.0) / 45.0), 1e-9);
     assert_int_equal(d.first_x, 2);
     assert_int_equal(d.first_y, 1);
+    /* The same on both sides, and yet nothing to be compared. */
+    a.rgb[3 * 4] = b.rgb[3 * 4] = NAN;
+    const rt_image_difference e = rt_image_compare(&a, &b);
+    assert_int_equal(e.pixels, 2);
+    assert_int_equal(e.non_finite, 2);
+    assert_int_equal(e.first_x, 4);
+    assert_int_equal(e.first_y, 0);
     rt_image_clear(&a);
     rt_image_clear(&b);
 }
