@@ -17,6 +17,14 @@
 #define RT_SLAB_MARGIN 1.0000005f
 #define RT_SLAB_MARGIN_ROBUST 0x1.00001p0f
 
+/* What is below a border of the checker's cells by less than this part of its way from 0 counts as
+ * on it, and with it to the cell above: decimal numbers of which one is a half of a whole multiple
+ * of the other are rounded to floats that are off by three half ulps at most. */
+#define RT_CELL_MARGIN 0x1p-22f
+/* On a sphere patterns end below the upper faces of its box by this part of them, which is more: a
+ * sphere that touches a border from below has nothing above it. */
+#define RT_SPHERE_CELL_MARGIN 0x1p-20f
+
 /* A part of white that cannot be seen: less than half of an 8-bit step. A ray that would bring less
  * lives on by chance, and then brings so much (Arvo and Kirk 1990). */
 #define RT_WEIGHT_LEAST (1.0f / 512.0f)

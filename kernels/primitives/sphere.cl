@@ -146,16 +146,31 @@ INLINE void meet_block_of_spheres(const rays *r, hit *h, const world *w, int blo
 
 /* ---- Its surface ---- */
 
+/* A coordinate of a point of a sphere, within its box and below the upper face of that. */
+INLINE number within_sphere(number x, number center, number radius)
+{
+    const number top = center + radius;
+    return BETWEEN(x, center - radius, fma(-(number)RT_SPHERE_CELL_MARGIN, fabs(top), top));
+}
+
 INLINE void sphere_surface(const traced *w, int index, __global const rt_sphere_block *block, int k,
                            number u, number v, vec3 origin, vec3 direction, surface *s)
 {
     const vec3 center = {block->cx[k], block->cy[k], block->cz[k]};
     const number radius = block->radius[k];
+    /* Where the radius is below an ulp of the centre, the point can be the centre itself: its
+     * normal is back along the ray. */
     vec3 normal = SUB(vec3, s->point, center);
-    make_unit(&normal);
+    const int has_direction = make_unit_if_any(&normal);
+    normal.x = has_direction ? normal.x : -direction.x;
+    normal.y = has_direction ? normal.y : -direction.y;
+    normal.z = has_direction ? normal.z : -direction.z;
     const number side = side_toward(normal, direction);
     s->start = (vec3){fma(radius, normal.x, center.x), fma(radius, normal.y, center.y),
                       fma(radius, normal.z, center.z)};
+    s->within = (vec3){within_sphere(s->point.x, center.x, radius),
+                       within_sphere(s->point.y, center.y, radius),
+                       within_sphere(s->point.z, center.z, radius)};
     s->lift =
         (number)RT_START_BOUND * EXTENT_ALONG(normal, fma(radius, fabs(normal.x), fabs(center.x)),
                                               fma(radius, fabs(normal.y), fabs(center.y)),

@@ -145,6 +145,12 @@ INLINE void smooth_normal(__global const float *n, number u, number v, vec3 *nor
         *normal = SCALE(unit, side < 0.0f ? -1.0f : 1.0f);
 }
 
+/* A coordinate of a point of a triangle, between those of its corners. */
+INLINE number within_corners(number x, number a, number b, number c)
+{
+    return BETWEEN(x, LESSER_1(LESSER_1(a, b), c), GREATER_1(GREATER_1(a, b), c));
+}
+
 /* The normals are made from the edges as they are and made unit last: made unit before the
  * barycentric test they would shrink the triangle, left as they are they would turn highlights
  * white. */
@@ -172,6 +178,9 @@ INLINE void triangle_surface(const traced *w, int index, __global const rt_trian
     s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, SUM_OF_SIZES(a.x, b.x, c.x),
                                                     SUM_OF_SIZES(a.y, b.y, c.y),
                                                     SUM_OF_SIZES(a.z, b.z, c.z));
+    s->within =
+        (vec3){within_corners(s->point.x, a.x, b.x, c.x), within_corners(s->point.y, a.y, b.y, c.y),
+               within_corners(s->point.z, a.z, b.z, c.z)};
     s->facing = SCALE(normal, side);
     s->normal = SCALE(normal, side);
     s->outside = side > 0.0f;

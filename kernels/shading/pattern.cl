@@ -1,15 +1,22 @@
 /* What ka and kd are multiplied by where a material has a checker or a picture. */
 
-/* Whether a point is in one of every two cells; cells of side `cell` lie about the whole multiples
- * of it, so that a floor at one is within cells and not on their border. */
-INLINE int in_odd_cell(vec3 point, number cell)
+/* Whether x is in a cell of odd number along an axis, where cells of side `cell` lie about the
+ * whole multiples of it, so that a floor at one is within cells and not on their border; a border
+ * belongs to the cell above it. The parity of a number of any size is exact; an infinite one is
+ * even. */
+INLINE int is_in_odd(number x, number cell)
 {
     const number half_ = 0.5f;
-    const number sum = floor(DIVIDE_1(point.x, cell) + half_) +
-                       floor(DIVIDE_1(point.y, cell) + half_) +
-                       floor(DIVIDE_1(point.z, cell) + half_);
-    /* The parity of a whole number of any size. */
-    return sum - (number)2.0f * floor(sum * half_) > half_;
+    const number place = DIVIDE_1(x, cell);
+    const number along = floor(fma(fabs(place), (number)RT_CELL_MARGIN, place) + half_);
+    return along - (number)2.0f * floor(along * half_) > half_;
+}
+
+/* Whether a point is in one of every two cells of a lattice of cubes. By its address: by value it
+ * would come as small vectors, which end vectorising. */
+INLINE int in_odd_cell(const vec3 *p, number cell)
+{
+    return is_in_odd(p->x, cell) ^ is_in_odd(p->y, cell) ^ is_in_odd(p->z, cell);
 }
 
 /* Pictures and what says where on them a point is. */

@@ -27,6 +27,7 @@ typedef struct surface {
     vec3 facing; /* geometric normal, unit, on the side that the ray comes from */
     vec3 normal; /* the same, or interpolated vertex normals on that side */
     vec3 start;  /* on the primitive */
+    vec3 within; /* the point, brought into the primitive's box: where a checker is looked up */
     number lift; /* distance along `facing` that clears every rounding */
     int outside; /* whether the ray comes from outside: of the sphere, or from where the corners run
                   * counter-clockwise */
@@ -44,6 +45,11 @@ INLINE number side_toward(vec3 normal, vec3 direction)
 /* |a| + |b| + |c|. One is not fabs, or LLVM would put two into a vector of two, which keeps it from
  * making vectors across rays. */
 #define SUM_OF_SIZES(a, b, c) (fabs(a) + ((b) < (number)0.0f ? -(b) : (b)) + fabs(c))
+
+/* x, at least lo and at most hi. On a plane at right angles to an axis both are its place there, to
+ * the bit, of which the point on the ray has what rounding left: by that a plane that is a border
+ * of the checker's cells would be in either by chance. */
+#define BETWEEN(x, lo, hi) LESSER_1(GREATER_1(x, lo), hi)
 
 /* What the trace stage leaves behind, and the primitives that it speaks of: parameters of the
  * kernels that look at hits, and those in one. The normals are there where some are smooth. */

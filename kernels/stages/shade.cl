@@ -116,8 +116,14 @@ INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
 {
     FLAGS_OF(w);
     *tone = (vec3){1.0f, 1.0f, 1.0f};
-    if (ON(CHECKER) && m->cell > 0.0f && in_odd_cell(s->point, (number)m->cell))
-        *tone = (vec3){m->checker_r, m->checker_g, m->checker_b};
+    if (ON(CHECKER)) {
+        /* Loads and cells of all rays: what only some rays need would be taken ray by ray. */
+        const vec3 other = {m->checker_r, m->checker_g, m->checker_b};
+        const int is_odd = (m->cell > 0.0f) & in_odd_cell(&s->within, (number)m->cell);
+        tone->x = is_odd ? other.x : (number)1.0f;
+        tone->y = is_odd ? other.y : (number)1.0f;
+        tone->z = is_odd ? other.z : (number)1.0f;
+    }
     if (ON(TEXTURE) && m->texture >= 0) {
         number x, y;
         vec3 picture;

@@ -65,6 +65,7 @@ typedef struct surface {
     const rt_material *material;
     int material_index;
     vec point;         /* where the ray is at t */
+    vec within;        /* the same, but not outside of the primitive's box: in which cell it is */
     vec normal;        /* to shade by: unit, on the side that the ray comes from */
     vec facing;        /* geometric: likewise */
     bool from_outside; /* whether that side is the primitive's outside */
@@ -80,6 +81,9 @@ RT_KINDS(KIND_IN_SURFACE)
 
 /* Turns a geometric normal that points outward to the side that the ray comes from. */
 void NAME(face)(surface *s, vec outward, vec direction);
+
+/* A point moved into a box, which is flat where the primitive is. */
+vec NAME(into_box)(vec point, vec lo, vec hi);
 
 /* What rounding can do to a start on a primitive, and to one on the ray, relative to the numbers
  * that went in. */

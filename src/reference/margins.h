@@ -16,4 +16,9 @@
 #define SLAB_MARGIN (1 + 8 * FLOAT_HALF_ULP)
 #define SLAB_MARGIN_ROBUST (1 + 16 * FLOAT_HALF_ULP)
 
+/* A border of cells reaches down by so much of its place: 1 each for two decimal numbers and their
+ * quotient, and one more. Spheres end lower still. */
+#define CELL_MARGIN (4 * FLOAT_HALF_ULP)
+#define SPHERE_CELL_MARGIN (4 * CELL_MARGIN)
+
 #endif

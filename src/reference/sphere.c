@@ -1,6 +1,7 @@
 /* Spheres of the scalar reference. In the robust test sums and products that cancel are carried
  * with their rounding errors (Knuth; Dekker; Ogita, Rump and Oishi 2005). */
 #include "reference/effects.h"
+#include "reference/margins.h"
 
 /* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
 static bool sphere_roots(const ray *r, vec center, real radius, real *near, real *far)
@@ -114,6 +115,23 @@ bool NAME(meet_sphere)(const rt_scene *scene, const ray *r, size_t i, hit *h)
     return true;
 }
 
+/* The unit normal at a point of a sphere; against the ray where the sphere is so small for its
+ * place that the point is rounded to the centre. */
+static vec outward_at(vec point, vec center, vec direction)
+{
+    const vec way = minus(point, center);
+    return way.x != 0 || way.y != 0 || way.z != 0 ? unit(way) : times(direction, -1);
+}
+
+/* The point for patterns: in the sphere's box, but for what lies at its upper faces. */
+static vec point_below_top(vec point, vec center, real radius)
+{
+    const vec reach = {radius, radius, radius};
+    const vec top = plus(center, reach);
+    return NAME(into_box)(point, minus(center, reach),
+                          add_scaled(magnitudes(top), -SPHERE_CELL_MARGIN, top));
+}
+
 surface NAME(surface_of_sphere)(const rt_scene *scene, const ray *r, size_t i, const hit *h)
 {
     const real pi = (real)3.14159265358979323846;
@@ -121,9 +139,10 @@ surface NAME(surface_of_sphere)(const rt_scene *scene, const ray *r, size_t i, c
     const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
     surface s = {.material = NULL};
     s.point = add_scaled(r->direction, h->t, r->origin);
-    const vec outward = unit(minus(s.point, center));
+    const vec outward = outward_at(s.point, center, r->direction);
     NAME(face)(&s, outward, r->direction);
     const real radius = (real)sphere->radius;
+    s.within = point_below_top(s.point, center, radius);
     s.foot = add_scaled(outward, radius, center);
     s.lift = NAME(lift_for)(START_BOUND,
                             add_scaled(magnitudes(outward), radius, magnitudes(center)), outward);

@@ -13,6 +13,18 @@ void NAME(face)(surface *s, vec outward, vec direction)
     s->normal = s->facing;
 }
 
+static real limited(real x, real least, real most)
+{
+    const real high = x > least ? x : least;
+    return high < most ? high : most;
+}
+
+vec NAME(into_box)(vec point, vec lo, vec hi)
+{
+    return (vec){limited(point.x, lo.x, hi.x), limited(point.y, lo.y, hi.y),
+                 limited(point.z, lo.z, hi.z)};
+}
+
 real NAME(lift_for)(real bound, vec sizes, vec normal)
 {
     return bound * dot(sizes, magnitudes(normal));

@@ -1,14 +1,22 @@
 /* The patterns of the scalar reference: the checker and pictures. */
 #include "reference/effects.h"
+#include "reference/margins.h"
 
-/* Cells are centred on the multiples of their size, so that a plane at a whole multiple lies in the
- * middle of them and not on a border, where rounding would choose. */
-static bool is_odd_cell(vec point, real size)
+/* 1 where the coordinate's cell has an odd number, else 0. Cells are centred on the multiples of
+ * their size, so that a plane at a whole multiple lies in the middle of them; a plane between them
+ * is the lower side of a cell. Numbers that are too large to be odd, and infinite ones, are even.
+ */
+static int oddness(real coordinate, real size)
 {
     const real half = (real)0.5;
-    const real cell =
-        FLOOR(point.x / size + half) + FLOOR(point.y / size + half) + FLOOR(point.z / size + half);
-    return cell - 2 * FLOOR(cell * half) != 0;
+    const real place = coordinate / size;
+    const real cell = FLOOR(FMA(FABS(place), CELL_MARGIN, place) + half);
+    return cell - 2 * FLOOR(cell * half) > half;
+}
+
+static bool is_odd_cell(vec point, real size)
+{
+    return (oddness(point.x, size) + oddness(point.y, size) + oddness(point.z, size)) % 2 == 1;
 }
 
 /* The texel of a column from the left and a row from below; pictures repeat. */
@@ -48,7 +56,7 @@ vec NAME(pattern)(const rt_scene *scene, const surface *s)
 {
     const rt_material *m = s->material;
     vec color = {1, 1, 1};
-    if (m->cell > 0 && is_odd_cell(s->point, (real)m->cell))
+    if (m->cell > 0 && is_odd_cell(s->within, (real)m->cell))
         color = vec_of(m->checker_r, m->checker_g, m->checker_b);
     if (m->texture >= 0)
         color = product(color, picture(scene, m, s->u, s->v));

@@ -75,6 +75,14 @@ static vec interpolated_normal(const float *n, real u, real v, vec facing)
     return side < 0 ? times(normal, -1) : normal;
 }
 
+/* The point for patterns: in the box of the corners. */
+static vec within_corners(const rt_triangle *triangle, vec point)
+{
+    float lo[3], hi[3];
+    NAME(box_of_triangle)(triangle, lo, hi);
+    return NAME(into_box)(point, vec_of(lo[0], lo[1], lo[2]), vec_of(hi[0], hi[1], hi[2]));
+}
+
 /* A weight of a corner, a little nearer to the triangle's middle. */
 static real drawn(real weight)
 {
@@ -90,6 +98,7 @@ surface NAME(surface_of_triangle)(const rt_scene *scene, const ray *r, size_t i,
     const vec a = triangle_corner(triangle, 0);
     const vec b = triangle_corner(triangle, 1);
     const vec c = triangle_corner(triangle, 2);
+    s.within = within_corners(triangle, s.point);
     const real to_b = drawn(h->u), to_c = drawn(h->v);
     s.foot = add_scaled(c, to_c, add_scaled(b, to_b, times(a, (real)1 - to_b - to_c)));
     s.lift = NAME(lift_for)(START_BOUND, plus(plus(magnitudes(a), magnitudes(b)), magnitudes(c)),

@@ -249,7 +249,7 @@ static void the_gradient_goes_along_up(void **state)
 static double checker_at(const rt_material *m, double x, double y, double z)
 {
     const rt_scene scene = {0};
-    const surface s = {.material = m, .point = {x, y, z}};
+    const surface s = {.material = m, .within = {x, y, z}};
     return rt_scalar_double_pattern(&scene, &s).x;
 }
 
