@@ -141,7 +141,7 @@ static size_t wrong_pixels(const plane *p, const rt_image *image, size_t *lines)
 
 /* Heights and cells of which one is a half of a whole multiple of the other. */
 static const double heights[][2] = {{0.5, 1},    {-1, 2},      {-0.5, 1},       {1000.5, 1},
-                                    {0.35, 0.1}, {-0.35, 0.1}, {-4.5e-5, 1e-5}, {250000, 1e5}};
+                                    {0.65, 0.1}, {-0.65, 0.1}, {-4.5e-5, 1e-5}, {250000, 1e5}};
 #define HEIGHTS (sizeof heights / sizeof *heights)
 #define PLANES (3 * HEIGHTS)
 

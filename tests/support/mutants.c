@@ -63,8 +63,8 @@ static bool is_changed;
 void test_mutate_kernels(test_mutant mutant)
 {
     const test_mutation *m = &test_mutations[mutant];
-    const char *folder = getenv("RT_KERNELS");
     test_restore_kernels();
+    const char *folder = getenv("RT_KERNELS");
     assert_true(snprintf(original, sizeof original, "%s", folder ? folder : "") <
                 (int)sizeof original);
     if (!original[0])
