@@ -86,7 +86,9 @@ typedef struct rt_light {
     float radius; /* of a ball that gives the light; 0 for a point */
     int shadow;   /* 1: what is between casts a shadow */
     int samples;  /* shadow rays a point where radius > 0, else 1 */
-    int padding_0, padding_1;
+    float gap;    /* part of the way to it that shadow rays leave out: 0, or more where a primitive
+                   * passes through its place */
+    int padding;
 } rt_light;
 
 /* The direction of pixel (x, y) before it is made unit:

@@ -57,10 +57,8 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
     const size_t first = (size_t)((int)get_global_id(0) % items) * RT_ITEM_RAYS;                   \
     const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS
 
-/* How much of the way to a light a probe goes: a part of 2^-12 is left out. */
-#define RT_LIGHT_REACH (1.0f - 0x1p-12f)
-
-/* A probe from the hit of ray i to a light; it starts on the light's side of the surface. */
+/* A probe from the hit of ray i to a light, as far as its place; it starts on the light's side of
+ * the surface. */
 INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *light,
                          const probe_set *set, __global number *probes, size_t j)
 {
@@ -92,7 +90,8 @@ INLINE void shadow_probe(const traced *w, size_t i, __global const rt_light *lig
     l.x = is_point ? aim.x : l.x;
     l.y = is_point ? aim.y : l.y;
     l.z = is_point ? aim.z : l.z;
-    const number tmax = is_point ? DOT(to, aim) * (number)RT_LIGHT_REACH : (number)INFINITY;
+    const number reach = DOT(to, aim) * ((number)1.0f - (number)light->gap);
+    const number tmax = is_point ? reach : (number)INFINITY;
     store_probe(probes, step, j, &origin, &l, on ? tmax : (number)-1.0f);
 }
 

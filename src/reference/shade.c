@@ -22,13 +22,12 @@ static vec way_to(const rt_light *light, const surface *s)
     return unit(light->w != 0.0f ? minus(place, s->point) : place);
 }
 
-/* Whether something is between `from` and the point `to`. The ray ends just short of it, so that
- * what stands behind a light does not hide it. */
-static bool is_hidden(const scalar_world *world, vec from, vec to)
+/* Whether something is between `from` and the point `to` of a light. */
+static bool is_hidden(const scalar_world *world, const rt_light *light, vec from, vec to)
 {
     const vec way = minus(to, from);
     const vec direction = unit(way);
-    const ray shadow = {from, direction, 0, dot(way, direction) * (real)(1 - 0x1p-12)};
+    const ray shadow = {from, direction, 0, dot(way, direction) * (1 - (real)light->gap)};
     return NAME(occluded)(world, &shadow);
 }
 
@@ -46,7 +45,7 @@ static real visibility(const scalar_world *world, int index, const surface *s, v
     }
     const vec center = vec_of(light->x, light->y, light->z);
     if (!(light->radius > 0.0f))
-        return is_hidden(world, from, center) ? 0 : 1;
+        return is_hidden(world, light, from, center) ? 0 : 1;
     /* The ball is seen as a disk at right angles to the way there. */
     vec t1, t2;
     NAME(axes_about)(to_light, &t1, &t2);
@@ -57,7 +56,7 @@ static real visibility(const scalar_world *world, int index, const surface *s, v
         const pair p = NAME(disk)(NAME(sample_point)(samples, purpose, first + i));
         const vec across = add_scaled(t1, (real)light->radius * p.x, center);
         const vec target = add_scaled(t2, (real)light->radius * p.y, across);
-        open += !is_hidden(world, from, target);
+        open += !is_hidden(world, light, from, target);
     }
     return (real)open / (real)count;
 }

@@ -149,6 +149,9 @@ static inline enum rt_kind rt_scene_kind_of(const rt_scene *scene, size_t *index
  * is 2^126 times smaller than the largest. A scene read from a file has been through it. */
 void rt_scene_choose_unit(rt_scene *scene);
 
+/* Once more of a scene that is complete: tells the lights that a primitive passes through (gap). */
+void rt_scene_settle_lights(rt_scene *scene);
+
 /* A material for the given coefficients (ka, kd, ks: r g b each). */
 rt_material rt_material_make(const float ka[3], const float kd[3], const float ks[3],
                              float shininess);

@@ -25,5 +25,6 @@ bool rt_scene_read(rt_scene *scene, const char *path, rt_status *status)
     const bool good = formats[i].read(scene, is_stdin ? "<stdin>" : path, &text, status);
     rt_file_free(&text);
     rt_scene_choose_unit(scene);
+    rt_scene_settle_lights(scene);
     return good;
 }

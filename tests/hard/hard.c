@@ -155,6 +155,7 @@ static rt_renderer *renderer_of(const rt_scene *scene, const rt_render_options *
     own.materials = copy_of(scene->materials, scene->material_count * sizeof *scene->materials);
     own.lights = copy_of(scene->lights, scene->light_count * sizeof *scene->lights);
     rt_scene_choose_unit(&own);
+    rt_scene_settle_lights(&own);
     rt_renderer *renderer = test_renderer(&own, options);
     free(own.triangles);
     free(own.spheres);

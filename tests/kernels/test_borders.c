@@ -56,25 +56,6 @@ static void glass_without_end(void **state)
                  0.25, 0, 1);
 }
 
-/* A 4096th of the way to a light is left out: what is in there casts no shadow, what is before it
- * does. The plate is `parts` of 2^-14 of the way before the light. */
-static void a_plate_at_the_light(void **state)
-{
-    (void)state;
-    for (int parts = 3; parts <= 5; parts += 2) { /* the border itself, 4, is rounding's */
-        char text[500];
-        const double z = 1 - parts * 0x1p-14;
-        snprintf(text, sizeof text,
-                 PIXEL
-                 "camera from 3 0 1 at 0 0 0\nlight point at 0 0 1 shadow on\n"
-                 "material m kd 1 1 1\n" PLANE(
-                     "0") "triangle a -0.1 -0.1 %.17g b 0.1 -0.1 %.17g c 0 0.1 %.17g material m\n",
-                 z, z, z);
-        const double lit = parts < 4;
-        assert_color(text, lit, lit, lit);
-    }
-}
-
 /* A ray that only just touches a sphere comes from outside: the light above shines on what it
  * meets. */
 static void the_horizon_of_a_sphere(void **state)
@@ -108,7 +89,6 @@ int main(void)
         cmocka_unit_test(a_mirror_ray_of_the_least_weight),
         cmocka_unit_test(a_refracted_ray_of_the_least_weight),
         cmocka_unit_test(glass_without_end),
-        cmocka_unit_test(a_plate_at_the_light),
         cmocka_unit_test(the_horizon_of_a_sphere),
         cmocka_unit_test(exponent_zero_among_others),
     };
