@@ -54,7 +54,7 @@ typedef struct rt_scene {
     int unit_exponent;
     int samples; /* rays a pixel, 1 up */
     enum rt_filter filter;
-    uint32_t seed; /* of the sample points: another one gives other noise */
+    uint32_t seed;        /* of the sample points: another one gives other noise */
     rt_encoding encoding; /* of the picture's file */
     int depth;            /* mirror and refracted rays in a row, at most */
     rt_camera camera;
