@@ -1,5 +1,6 @@
 #include "cli/actions.h"
 #include "cli/picture_check.h"
+#include "cli/refine.h"
 #include "common/clock.h"
 
 typedef struct outputs {
@@ -47,7 +48,8 @@ static bool draw(rt_run *r, rt_image *image, rt_team **team)
     bool good;
     if (*team) {
         rt_run_begin_progress(r);
-        good = rt_team_draw(*team, image, &r->watch, &r->status);
+        good = rt_refine_is_asked(&r->options) ? rt_refine(r, *team, image)
+                                               : rt_team_draw(*team, image, &r->watch, &r->status);
         rt_progress_clear(&r->progress);
     } else {
         good = rt_run_draw_scalar(r, r->options.target == RT_TARGET_SCALAR_DOUBLE, image);

@@ -55,6 +55,25 @@ static bool read_format(rt_options *o, const char *value)
     return o->format != NULL;
 }
 
+static bool read_positive(const char *value, double *out)
+{
+    float number = 0.0f;
+    if (rt_number_float(value, strlen(value), &number) != RT_NUMBER_OK || !(number > 0.0f))
+        return false;
+    *out = (double)number;
+    return true;
+}
+
+static bool read_error(rt_options *o, const char *value)
+{
+    return read_positive(value, &o->error);
+}
+
+static bool read_seconds(rt_options *o, const char *value)
+{
+    return read_positive(value, &o->seconds);
+}
+
 static bool read_lanes(rt_options *o, const char *value)
 {
     return read_whole(value, strlen(value), 1, 16, &o->lanes) &&
@@ -156,6 +175,9 @@ static const struct row {
      "what is compiled into the kernels: scene, what the scene calls for,\n"
      "the default; all, everything, switched at run time, for the\n"
      "same picture; none, Phong alone\n"},
+    {"error", 0, "STEPS", read_error, "a number above 0",
+     "add samples to the picture until its error, the root mean\n"
+     "square in steps of 256, is about that\n"},
     {"explain", 0, NULL, read_explain, NULL,
      "print which effects the scene calls for, by which line, and what\n"
      "each costs on this device\n"},
@@ -175,6 +197,8 @@ static const struct row {
      "tell on standard error how far a long render is: auto (the\n"
      "default: on a terminal), always or never\n"},
     {"quiet", 'q', NULL, read_quiet, NULL, "print errors only\n"},
+    {"seconds", 0, "T", read_seconds, "a number above 0",
+     "add samples to the picture until the run has taken so long\n"},
     {"size", 0, "WxH", read_size,
      "WxH, such as 640x480, each from 1 to 65535, at most 268435456 pixels in all",
      "picture size in pixels, whatever the scene says\n"},
@@ -311,6 +335,17 @@ static bool check_explain(const rt_options *o, rt_status *status)
     return true;
 }
 
+/* --seconds and --error add samples to a picture on devices. */
+static bool check_refinement(const rt_options *o, rt_status *status)
+{
+    if (!(o->seconds > 0.0) && !(o->error > 0.0))
+        return true;
+    if (o->study || o->explain)
+        return fail_usage(status, "--seconds and --error are for one picture", "");
+    return o->target == RT_TARGET_DEVICE ||
+           fail_usage(status, "--seconds and --error are for OpenCL devices", "");
+}
+
 /* What options mean together. */
 static bool check(rt_options *o, rt_status *status)
 {
@@ -319,6 +354,8 @@ static bool check(rt_options *o, rt_status *status)
     if (!check_study(o, status))
         return false;
     if (!check_explain(o, status))
+        return false;
+    if (!check_refinement(o, status))
         return false;
     if (!o->output && !o->verify && !o->hits && !o->stats && !o->study && !o->explain)
         return fail_usage(status, "no output is given", "");

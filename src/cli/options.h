@@ -44,6 +44,7 @@ typedef struct rt_options {
     const char *hits, *stats;
     int width, height;              /* 0 where the scene decides */
     int lanes, tile;                /* 0 for the default */
+    double seconds, error;          /* that decide how many samples there are; 0 for none */
     enum rt_progress_when progress; /* RT_PROGRESS_NEVER with quiet */
     enum rt_effects_mode effects;
     bool verify, quiet;

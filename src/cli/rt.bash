@@ -31,14 +31,14 @@ _rt()
         done=,
         ;;
     --hits | --stats | --study) return ;;
-    --size | --study-repeats | --tile)
+    --error | --seconds | --size | --study-repeats | --tile)
         compopt +o default +o bashdefault
         return
         ;;
     *)
         [[ $current == -* ]] || return
-        words="--accel= --accuracy= --device= --effects= --explain --format= --grammar --help --hits=
-               --lanes= --list-devices --no-cost --progress= --quiet --size= --stats= --study=
+        words="--accel= --accuracy= --device= --effects= --error= --explain --format= --grammar --help --hits=
+               --lanes= --list-devices --no-cost --progress= --quiet --seconds= --size= --stats= --study=
                --study-levels= --study-repeats= --study-samples= --tile= --verify --version"
         ;;
     esac

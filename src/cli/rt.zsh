@@ -14,6 +14,7 @@ _arguments -s -S \
     '--accuracy=[how accurate, whatever the scene says]:level:(fast standard robust double)' \
     '(-d --device)'{-d+,--device=}'[where to render]:device:_rt_devices' \
     '--effects=[what is compiled into the kernels]:which:(scene all none)' \
+    '--error=[add samples until the error is that small]:steps of 256: ' \
     '--explain[print what effects the scene calls for and what they cost]' \
     '--format=[what the picture is written as]:format:(png bmp tga jpg hdr exr png16)' \
     '(- *)--grammar[print the scene format as a table]' \
@@ -24,6 +25,7 @@ _arguments -s -S \
     '--no-cost[explain without measuring]' \
     '--progress=[tell how far a long render is]:when:(auto always never)' \
     '(-q --quiet)'{-q,--quiet}'[print errors only]' \
+    '--seconds=[add samples until so long has passed]:seconds: ' \
     '--size=[picture size in pixels]:WxH: ' \
     '--stats=[write what was done as JSON]:file:_files' \
     '--study=[measure what accuracy costs]:report:_files' \

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+#include "cli/refine.h"
 #include "cli/signals.h"
 #include "common/clock.h"
 #include "common/parallel.h"
@@ -59,6 +60,8 @@ static bool read_scene(rt_run *r)
     }
     if (o->has_accuracy)
         r->scene.accuracy = o->accuracy;
+    if (rt_refine_is_asked(o))
+        r->scene.samples = RT_SAMPLES_MAX;
     if (o->effects == RT_EFFECTS_NONE)
         rt_effects_remove_all(&r->scene);
     r->stats.parse = rt_clock_seconds() - start;

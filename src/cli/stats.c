@@ -102,5 +102,8 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
         "lights", count_of(scene->light_count), "materials", count_of(scene->material_count),
         "rays", rays_of(&t), "light_cut", rt_render_times_cut(&t), "seconds", seconds_of(s, &t),
         "stages", stages_of(&t), "effects", effects_of(s->effects), "devices", devices_of(s));
+    json_object_set_new(root, "samples", json_integer(scene->samples));
+    if (s->error > 0.0)
+        json_object_set_new(root, "error", json_real(s->error));
     return rt_json_write(root, "--stats", output, status);
 }

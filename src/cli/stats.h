@@ -14,6 +14,7 @@ typedef struct rt_stats {
     const rt_effects *effects;
     const rt_team *team;                      /* NULL for the scalar path */
     double parse, accel, draw, encode, total; /* wall seconds */
+    double error; /* root mean square in 8-bit steps, where it was estimated, else 0 */
 } rt_stats;
 
 bool rt_stats_write(const rt_stats *stats, rt_output *output, rt_status *status);

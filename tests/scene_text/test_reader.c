@@ -112,7 +112,7 @@ static void every_statement_of_an_effect(void **state)
     assert_false(s.has_gradient);
     assert_true(s.fog_density == 0.0f);
     assert_int_equal(s.occlusion_samples, 0);
-    assert_int_equal(s.depth, 5);
+    assert_int_equal(s.depth, 32);
     rt_scene_clear(&s);
 }
 

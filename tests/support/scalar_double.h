@@ -50,8 +50,8 @@ static inline void test_add_floor(rt_scene *scene, const rt_material *m, float h
     test_add_triangle(scene, m, &floor);
 }
 
-/* What an eye at the origin of a ray sees along it, as the mean of so many samples: what is followed
- * by chance wants many. */
+/* What an eye at the origin of a ray sees along it, as the mean of so many samples: what is
+ * followed by chance wants many. */
 static inline vec test_look_long(const rt_scene *scene, vec origin, vec direction, uint32_t count)
 {
     rt_scene there = *scene;
