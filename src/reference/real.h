@@ -132,6 +132,13 @@ typedef struct scalar_world {
 scalar_world NAME(world)(const rt_scene *scene);
 void NAME(world_clear)(scalar_world *world);
 
+/* A world to be shared, of scenes of the same primitives (scalar.h). */
+struct rt_scalar_tree *NAME(tree)(const rt_scene *scene);
+void NAME(tree_free)(struct rt_scalar_tree *tree);
+/* The scene's world by that tree, or one of its own for NULL; to be left as it was opened. */
+scalar_world NAME(world_open)(const rt_scene *scene, const struct rt_scalar_tree *tree);
+void NAME(world_leave)(scalar_world *world, const struct rt_scalar_tree *tree);
+
 /* The nearest hit with t in (tmin, tmax); t is infinite where there is none. */
 hit NAME(closest)(const scalar_world *world, const ray *r);
 /* Whether there is any hit with t in (tmin, tmax). */

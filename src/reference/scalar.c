@@ -107,10 +107,11 @@ static void draw_row(void *context, size_t row)
         draw_pixel(p, x, (int)row);
 }
 
-bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch, rt_status *status)
+bool NAME(render_by)(const rt_scalar_tree *tree, const rt_scene *scene, rt_image *image,
+                     const rt_watch *watch, rt_status *status)
 {
     picture p = {.scene = scene,
-                 .world = NAME(world)(scene),
+                 .world = NAME(world_open)(scene, tree),
                  .image = image,
                  .watch = watch,
                  .e = eye_of(scene),
@@ -119,10 +120,15 @@ bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch,
     if (has_memory)
         rt_parallel((size_t)image->height, rt_parallel_processors(), draw_row, &p);
     pthread_mutex_destroy(&p.lock);
-    NAME(world_clear)(&p.world);
+    NAME(world_leave)(&p.world, tree);
     if (!has_memory)
         return rt_status_no_memory(status, "media");
     if (p.is_stopped)
         return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
     return true;
+}
+
+bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch, rt_status *status)
+{
+    return NAME(render_by)(NULL, scene, image, watch, status);
 }

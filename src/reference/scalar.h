@@ -23,4 +23,17 @@ bool rt_scalar_double_render(const rt_scene *scene, rt_image *image, const rt_wa
 void rt_scalar_float_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
 void rt_scalar_double_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
 
+/* What these find primitives by, made once for many calls: a tree over a scene's primitives, good
+ * for every scene that has the same ones in the same unit, whatever its size, samples or level. It
+ * changes no bit. NULL without memory, which is good too: then each call makes its own. */
+typedef struct rt_scalar_tree rt_scalar_tree;
+rt_scalar_tree *rt_scalar_double_tree(const rt_scene *scene);
+void rt_scalar_double_tree_free(rt_scalar_tree *tree);
+
+/* As those above, by the scene's tree or NULL. */
+bool rt_scalar_double_render_by(const rt_scalar_tree *tree, const rt_scene *scene, rt_image *image,
+                                const rt_watch *watch, rt_status *status);
+void rt_scalar_double_trace_by(const rt_scalar_tree *tree, const rt_scene *scene,
+                               const rt_ray *rays, size_t count, rt_hit *hits);
+
 #endif

@@ -123,6 +123,40 @@ void NAME(world_clear)(scalar_world *world)
     *world = (scalar_world){0};
 }
 
+struct rt_scalar_tree {
+    scalar_world world;
+};
+
+rt_scalar_tree *NAME(tree)(const rt_scene *scene)
+{
+    rt_scalar_tree *tree = malloc(sizeof *tree);
+    if (tree)
+        tree->world = NAME(world)(scene);
+    return tree;
+}
+
+void NAME(tree_free)(rt_scalar_tree *tree)
+{
+    if (tree)
+        NAME(world_clear)(&tree->world);
+    free(tree);
+}
+
+scalar_world NAME(world_open)(const rt_scene *scene, const rt_scalar_tree *tree)
+{
+    if (!tree)
+        return NAME(world)(scene);
+    scalar_world world = tree->world;
+    world.scene = scene;
+    return world;
+}
+
+void NAME(world_leave)(scalar_world *world, const rt_scalar_tree *tree)
+{
+    if (!tree)
+        NAME(world_clear)(world);
+}
+
 static void try_every_primitive(const scalar_world *w, const ray *r, hit *best)
 {
     const int count = (int)rt_scene_primitive_count(w->scene);
@@ -199,9 +233,10 @@ bool NAME(occluded)(const scalar_world *world, const ray *r)
     return find(world, r, true).primitive != RT_MISS;
 }
 
-void NAME(trace)(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
+void NAME(trace_by)(const rt_scalar_tree *tree, const rt_scene *scene, const rt_ray *rays,
+                    size_t count, rt_hit *hits)
 {
-    scalar_world world = NAME(world)(scene);
+    scalar_world world = NAME(world_open)(scene, tree);
     for (size_t i = 0; i < count; ++i) {
         const float *o = rays[i].origin, *d = rays[i].direction;
         const vec direction = moderate(vec_of(d[0], d[1], d[2]));
@@ -216,5 +251,10 @@ void NAME(trace)(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit
         const hit h = NAME(closest)(&world, &r);
         hits[i] = (rt_hit){h.primitive, (float)LDEXP(h.t, -along), (float)h.u, (float)h.v};
     }
-    NAME(world_clear)(&world);
+    NAME(world_leave)(&world, tree);
+}
+
+void NAME(trace)(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits)
+{
+    NAME(trace_by)(NULL, scene, rays, count, hits);
 }
