@@ -21,6 +21,8 @@ static bool act(rt_run *run)
         return rt_action_list(run);
     case RT_ACTION_STUDY:
         return rt_action_study(run);
+    case RT_ACTION_PLOT:
+        return rt_action_plot(run);
     case RT_ACTION_EXPLAIN:
         return rt_action_explain(run);
     case RT_ACTION_RENDER:

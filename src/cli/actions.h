@@ -15,6 +15,9 @@ bool rt_action_verify(rt_run *run, const rt_image *image);
 /* Renders the scene at every level and writes what that costs. */
 bool rt_action_study(rt_run *run);
 
+/* Makes the report anew from the figures of an earlier study. */
+bool rt_action_plot(rt_run *run);
+
 /* Tells what the scene calls for and, unless told not to, what that costs. */
 bool rt_action_explain(rt_run *run);
 

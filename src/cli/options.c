@@ -80,6 +80,13 @@ static bool read_lanes(rt_options *o, const char *value)
            (o->lanes == 1 || o->lanes == 4 || o->lanes == 8 || o->lanes == 16);
 }
 
+static bool read_plot(rt_options *o, const char *value)
+{
+    const size_t length = strlen(value), ending = strlen(RT_PLOT_ENDING);
+    o->plot = value;
+    return length > ending && strcmp(value + length - ending, RT_PLOT_ENDING) == 0;
+}
+
 static bool read_progress(rt_options *o, const char *value)
 {
     static const char *const names[] = {[RT_PROGRESS_AUTO] = "auto",
@@ -193,6 +200,8 @@ static const struct row {
      "device's native float width, 1 on a GPU\n"},
     {"list-devices", 0, NULL, read_list_devices, NULL, "list the OpenCL devices and exit\n"},
     {"no-cost", 0, NULL, read_no_cost, NULL, "explain without measuring, and without a device\n"},
+    {"plot", 0, "FILE", read_plot, "the REPORT.json of a study",
+     "make the report of an earlier study anew from its REPORT.json\n"},
     {"progress", 0, "WHEN", read_progress, "auto, always or never",
      "tell on standard error how far a long render is: auto (the\n"
      "default: on a terminal), always or never\n"},
@@ -207,8 +216,8 @@ static const struct row {
      "standard output)\n"},
     {"study", 0, "REPORT", read_study, "what the names of the report begin with",
      "measure what accuracy costs: the scene at every level and several\n"
-     "counts of samples, its errors and times, to REPORT.json, .csv,\n"
-     ".md, .svg and .png\n"},
+     "counts of samples, its errors and times, on one device or on\n"
+     "several side by side; a verdict, and a report in REPORT.html\n"},
     {"study-levels", 0, "LEVELS", read_study_levels,
      "fast, standard, robust or double, or several with commas between them",
      "levels to study, with commas between them; all by default\n"},
@@ -256,6 +265,7 @@ void rt_options_help(FILE *out)
         "       rt [OPTION]... --verify SCENE [OUTPUT]\n"
         "       rt [OPTION]... --explain SCENE\n"
         "       rt [OPTION]... --study=REPORT SCENE\n"
+        "       rt [OPTION]... --plot=REPORT.json\n"
         "Renders the text scene SCENE (- for standard input) with OpenCL to the picture OUTPUT:\n"
         "%s by its extension, - for a PNG on standard output. OUTPUT may\n"
         "be left out with --verify, --hits or --stats.\n"
@@ -298,8 +308,7 @@ static bool check_devices(const char *text, rt_status *status)
     return true;
 }
 
-/* A study is of one device, at levels and counts of samples of its own, and writes its own files.
- */
+/* A study is of devices, at levels and counts of samples of its own, and writes its own files. */
 static bool check_study(const rt_options *o, rt_status *status)
 {
     if (!o->study)
@@ -314,8 +323,6 @@ static bool check_study(const rt_options *o, rt_status *status)
         return fail_usage(status, "--study takes --study-levels in the place of --accuracy", "");
     if (o->target != RT_TARGET_DEVICE)
         return fail_usage(status, "--study holds a device against the scalar path; choose one", "");
-    if (o->device && (strchr(o->device, ',') || strcasecmp(o->device, "all") == 0))
-        return fail_usage(status, "--study is of one device, not of --device ", o->device);
     return true;
 }
 
@@ -346,9 +353,20 @@ static bool check_refinement(const rt_options *o, rt_status *status)
            fail_usage(status, "--seconds and --error are for OpenCL devices", "");
 }
 
+/* --plot needs a file and nothing else. */
+static bool check_plot(rt_options *o, rt_status *status)
+{
+    if (o->scene || o->study || o->has_plan || o->explain || o->verify || o->hits || o->stats)
+        return fail_usage(status, "--plot reads what a study has found, and renders nothing", "");
+    o->action = RT_ACTION_PLOT;
+    return true;
+}
+
 /* What options mean together. */
 static bool check(rt_options *o, rt_status *status)
 {
+    if (o->plot)
+        return check_plot(o, status);
     if (!o->scene)
         return fail_usage(status, "no scene is given", "");
     if (!check_study(o, status))

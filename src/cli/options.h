@@ -13,9 +13,13 @@
 
 #define RT_VERSION "0.2.0"
 
+/* How the file of a study's figures is called. */
+#define RT_PLOT_ENDING ".json"
+
 enum rt_action {
     RT_ACTION_RENDER,
     RT_ACTION_STUDY,
+    RT_ACTION_PLOT,
     RT_ACTION_EXPLAIN,
     RT_ACTION_HELP,
     RT_ACTION_VERSION,
@@ -50,6 +54,7 @@ typedef struct rt_options {
     bool verify, quiet;
     bool explain, no_cost; /* a table of effects in place of a picture; without measuring */
     const char *study;     /* what the names of the report begin with, or NULL */
+    const char *plot;      /* the figures of an earlier study, or NULL; ends in RT_PLOT_ENDING */
     bool has_plan;         /* whether an option narrows the study */
     rt_study_plan plan;
 } rt_options;

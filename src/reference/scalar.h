@@ -24,8 +24,9 @@ void rt_scalar_float_trace(const rt_scene *scene, const rt_ray *rays, size_t cou
 void rt_scalar_double_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);
 
 /* What these find primitives by, made once for many calls: a tree over a scene's primitives, good
- * for every scene that has the same ones in the same unit, whatever its size, samples or level. It
- * changes no bit. NULL without memory, which is good too: then each call makes its own. */
+ * for every scene that has the same ones of the same materials in the same unit and the same eye,
+ * whatever its size, samples or level. It changes no bit. NULL without memory, which is good too:
+ * then each call makes its own. */
 typedef struct rt_scalar_tree rt_scalar_tree;
 rt_scalar_tree *rt_scalar_double_tree(const rt_scene *scene);
 void rt_scalar_double_tree_free(rt_scalar_tree *tree);

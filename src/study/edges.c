@@ -76,8 +76,10 @@ static size_t take_hits(walk *w, size_t active)
     return left;
 }
 
-/* Follows all rays through one scene: by the renderer, or where that is NULL by the scalar path. */
-static bool follow(study_state *s, walk *w, const rt_scene *scene, rt_renderer *renderer)
+/* Follows all rays through one scene: by the renderer, or where that is NULL by the scalar path and
+ * its tree. */
+static bool follow(study_state *s, walk *w, const rt_scene *scene, rt_renderer *renderer,
+                   const rt_scalar_tree *tree)
 {
     size_t active = w->count;
     for (size_t i = 0; i < active; ++i) {
@@ -86,7 +88,7 @@ static bool follow(study_state *s, walk *w, const rt_scene *scene, rt_renderer *
     }
     for (int round = 0; active > 0 && round < CROSSINGS_MOST; ++round) {
         if (!renderer)
-            rt_scalar_double_trace(scene, w->active, active, w->hits);
+            rt_scalar_double_trace_by(tree, scene, w->active, active, w->hits);
         else if (!rt_renderer_trace(renderer, w->active, active, w->hits, s->status))
             return false;
         active = take_hits(w, active);
@@ -118,6 +120,16 @@ static bool make_colored(study_state *s, colored *c, const rt_study_mesh *mesh, 
     c->bvh = (rt_bvh){0};
     return make_scene(&c->scene, mesh, color, s->status) &&
            (!s->how->bvh || rt_bvh_build(&c->bvh, &c->scene, rt_parallel_processors(), s->status));
+}
+
+/* What a walk needs at most is compiled in: with the same for all, all have the same program. */
+static void share_programs(colored parts[RT_MESH_COLORS])
+{
+    size_t most = 0;
+    for (int color = 0; color < RT_MESH_COLORS; ++color)
+        most = parts[color].bvh.stack_size > most ? parts[color].bvh.stack_size : most;
+    for (int color = 0; color < RT_MESH_COLORS; ++color)
+        parts[color].bvh.stack_size = most;
 }
 
 static void clear_colored(colored *c)
@@ -165,11 +177,13 @@ static bool find_starts(study_state *s, const rt_study_mesh *mesh, rt_ray *start
         starts[i] = trial_ray(mesh, i);
     bool good = make_walk(&w, starts, STARTS_TRIED, s->status);
     good = make_scene(&scene, mesh, RT_MESH_COLORS, s->status) && good;
-    good = good && follow(s, &w, &scene, NULL);
+    rt_scalar_tree *tree = good ? rt_scalar_double_tree(&scene) : NULL;
+    good = good && follow(s, &w, &scene, NULL, tree);
     *count = 0;
     for (size_t i = 0; good && i < STARTS_TRIED; ++i)
         if (w.crossings[i] % 2 == 1)
             starts[(*count)++] = starts[i];
+    rt_scalar_double_tree_free(tree);
     free_walk(&w);
     rt_scene_clear(&scene);
     return good;
@@ -191,16 +205,16 @@ static rt_ray edge_ray(const rt_study_mesh *mesh, const rt_ray *starts, size_t s
     return ray;
 }
 
-static void judge(const walk *w, rt_study_level *level)
+static void judge(const walk *w, rt_study_entry *entry)
 {
-    level->edge_rays = w->count;
+    entry->edge_rays = w->count;
     for (size_t i = 0; i < w->count; ++i)
         if (w->crossings[i] % 2 == 0)
-            ++*(w->near_crossings[i] < 2 ? &level->leaks : &level->double_hits);
+            ++*(w->near_crossings[i] < 2 ? &entry->leaks : &entry->double_hits);
 }
 
-static bool trace_level(study_state *s, const colored parts[RT_MESH_COLORS], const rt_ray *rays,
-                        rt_study_level *level)
+static bool trace_entry(study_state *s, const colored parts[RT_MESH_COLORS], const rt_ray *rays,
+                        rt_study_entry *entry)
 {
     walk w;
     bool good = make_walk(&w, rays, EDGE_RAYS, s->status);
@@ -209,12 +223,12 @@ static bool trace_level(study_state *s, const colored parts[RT_MESH_COLORS], con
         const rt_bvh *bvh = s->how->bvh ? &parts[color].bvh : NULL;
         if (scene->triangle_count == 0)
             continue;
-        rt_renderer *renderer = rt_study_renderer(s, scene, bvh, level->level, 1);
-        good = renderer && follow(s, &w, scene, renderer);
+        rt_renderer *renderer = rt_study_renderer(s, scene, bvh, entry->device, entry->level, 1);
+        good = renderer && follow(s, &w, scene, renderer, NULL);
         rt_renderer_free(renderer);
     }
     if (good)
-        judge(&w, level);
+        judge(&w, entry);
     free_walk(&w);
     return good;
 }
@@ -228,11 +242,13 @@ static bool trace_mesh(study_state *s, const rt_study_mesh *mesh, const rt_ray *
     bool good = rays || rt_status_no_memory(s->status, "rays");
     for (int color = 0; color < RT_MESH_COLORS; ++color)
         good = make_colored(s, &parts[color], mesh, color) && good;
+    share_programs(parts);
     for (uint32_t i = 0; good && i < EDGE_RAYS; ++i)
         rays[i] = edge_ray(mesh, starts, start_count, i);
-    for (size_t i = 0; good && i < study->level_count; ++i)
-        good = rt_study_tick(s, (double)i / (double)study->level_count) &&
-               trace_level(s, parts, rays, &study->levels[i]);
+    for (size_t i = 0; good && i < study->entry_count; ++i) {
+        rt_study_begin_part(s, RT_WORK_EDGES, 1.0);
+        good = rt_study_tick(s, 0.0) && trace_entry(s, parts, rays, &study->entries[i]);
+    }
     for (int color = 0; color < RT_MESH_COLORS; ++color)
         clear_colored(&parts[color]);
     free(rays);
@@ -249,13 +265,14 @@ bool rt_study_trace_edges(study_state *s)
         return false;
     study->edge_triangles = mesh.count;
     bool good = mesh.count == 0 || find_starts(s, &mesh, starts, &start_count);
-    if (start_count > 0)
-        good = good && trace_mesh(s, &mesh, starts, start_count);
-    else
-        study->no_edges = s->scene->triangle_count == 0 ? "the scene has no triangles"
-                          : mesh.count == 0 ? "no mesh of the scene is closed: each has edges "
-                                              "that not exactly two triangles share"
-                                            : "no way into the closed mesh was found";
+    if (good && start_count > 0) {
+        good = trace_mesh(s, &mesh, starts, start_count);
+    } else if (good) {
+        rt_forecast_drop(&s->forecast, RT_WORK_EDGES, (double)study->entry_count);
+        study->edges = s->scene->triangle_count == 0 ? RT_EDGES_NO_TRIANGLES
+                       : mesh.count == 0             ? RT_EDGES_NOT_CLOSED
+                                                     : RT_EDGES_NO_WAY_IN;
+    }
     rt_study_mesh_clear(&mesh);
     return good;
 }

@@ -6,6 +6,10 @@
 
 /* Errors closer than this part of each other are not told apart. */
 #define ERROR_MARGIN 0.01
+/* Noise hides what is off up to so many pixels away. */
+#define HIDING_REACH 2
+/* And hides so many times of itself: it might have been larger. */
+#define HIDDEN_TIMES 2
 
 double rt_quantile(const double *sorted, size_t count, double p)
 {
@@ -55,19 +59,28 @@ static double clamped(float component)
     return c > 0.0 ? (c < 1.0 ? c : 1.0) : 0.0; /* NaN counts as black, as in the file */
 }
 
+/* The largest difference of a component of the i-th pixel, in whole steps. */
+static int steps_apart(const rt_image *a, const rt_image *b, size_t i)
+{
+    int worst = 0;
+    for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
+        const int steps = abs(rt_image_step(a->rgb[c]) - rt_image_step(b->rgb[c]));
+        worst = steps > worst ? steps : worst;
+    }
+    return worst;
+}
+
 rt_study_error rt_study_error_of(const rt_image *picture, const rt_image *reference)
 {
     rt_study_error e = {0};
     const size_t pixels = (size_t)picture->width * (size_t)picture->height;
     double squares = 0.0;
     for (size_t i = 0; i < pixels; ++i) {
-        int worst = 0;
+        const int worst = steps_apart(picture, reference, i);
         bool finite = true;
         for (size_t c = 3 * i; c < 3 * i + 3; ++c) {
             const float p = picture->rgb[c], q = reference->rgb[c];
-            const int steps = abs(rt_image_step(p) - rt_image_step(q));
             const double off = 255.0 * (clamped(p) - clamped(q));
-            worst = steps > worst ? steps : worst;
             squares += off * off;
             finite = finite && isfinite(p) && isfinite(q);
         }
@@ -79,6 +92,50 @@ rt_study_error rt_study_error_of(const rt_image *picture, const rt_image *refere
     }
     e.rms = sqrt(squares / (3.0 * (double)pixels));
     return e;
+}
+
+/* The largest of what is up to HIDING_REACH before and behind, of `count` values `stride` apart. */
+static void spread_most(const uint8_t *from, uint8_t *to, size_t count, size_t stride)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const size_t first = i > HIDING_REACH ? i - HIDING_REACH : 0;
+        const size_t end = i + HIDING_REACH + 1 < count ? i + HIDING_REACH + 1 : count;
+        uint8_t most = 0;
+        for (size_t k = first; k < end; ++k)
+            most = from[k * stride] > most ? from[k * stride] : most;
+        to[i * stride] = most;
+    }
+}
+
+uint8_t *rt_study_noise_of(const rt_image *reference, const rt_image *converged)
+{
+    const size_t width = (size_t)reference->width, height = (size_t)reference->height;
+    uint8_t *noise = malloc(width * height), *across = malloc(width * height);
+    if (noise && across) {
+        for (size_t i = 0; i < width * height; ++i)
+            noise[i] = (uint8_t)steps_apart(reference, converged, i);
+        for (size_t y = 0; y < height; ++y)
+            spread_most(noise + y * width, across + y * width, width, 1);
+        for (size_t x = 0; x < width; ++x)
+            spread_most(across + x, noise + x, height, width);
+    } else {
+        free(noise);
+        noise = NULL;
+    }
+    free(across);
+    return noise;
+}
+
+size_t rt_study_count_visible(const rt_image *picture, const rt_image *reference,
+                              const uint8_t *noise)
+{
+    const size_t pixels = (size_t)picture->width * (size_t)picture->height;
+    size_t count = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        const int steps = steps_apart(picture, reference, i);
+        count += steps > 1 && steps > HIDDEN_TIMES * noise[i];
+    }
+    return count;
 }
 
 static bool is_faster(const rt_study_point *a, const rt_study_point *b)

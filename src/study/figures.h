@@ -36,6 +36,16 @@ typedef struct rt_study_error {
 
 rt_study_error rt_study_error_of(const rt_image *picture, const rt_image *reference);
 
+/* The noise of too few samples about each pixel of a picture of so many: how far the reference at
+ * as many samples is from the converged one, in steps, at most in the 5x5 pixels about it. From
+ * malloc; NULL without memory. */
+uint8_t *rt_study_noise_of(const rt_image *reference, const rt_image *converged);
+
+/* Pixels of a picture that one can see to be off: by more than a step from the reference at as many
+ * samples, and by more than twice that noise, which hides the rest. */
+size_t rt_study_count_visible(const rt_image *picture, const rt_image *reference,
+                              const uint8_t *noise);
+
 /* A point of the plot: what it takes, and how far off it is. */
 typedef struct rt_study_point {
     rt_spread time;

@@ -1,17 +1,16 @@
-/* The plot of a study, by gnuplot. */
+/* The plot of a study: time against error. */
 #ifndef RT_STUDY_PLOT_H
 #define RT_STUDY_PLOT_H
 
 #include <stdio.h>
 
+#include "study/gnuplot.h"
 #include "study/result.h"
 
 /* Writes a gnuplot script that draws the study to the files `svg` and `png`. */
 void rt_study_plot_script(const rt_study *study, const char *svg, const char *png, FILE *out);
 
-enum rt_plot_result { RT_PLOT_DRAWN, RT_PLOT_NO_GNUPLOT, RT_PLOT_FAILED };
-
-/* Runs gnuplot, found by PATH, over the script. */
+/* Runs gnuplot over it. */
 enum rt_plot_result rt_study_plot(const rt_study *study, const char *svg, const char *png);
 
 #endif

@@ -1,5 +1,5 @@
-/* The same rays through every level: primary rays of the scene's camera, made once in fp32, and
- * next rays from what each level says they hit. */
+/* The same rays through every entry: primary rays of the scene's camera, made once in fp32, and
+ * next rays from what each says they hit. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -149,6 +149,7 @@ static bool make_set(ray_set *r, size_t count, rt_status *status)
 }
 
 typedef struct batch {
+    const rt_scalar_tree *tree;
     const rt_scene *scene;
     const rt_ray *rays;
     rt_hit *hits;
@@ -159,7 +160,8 @@ static void trace_chunk(void *context, size_t i)
 {
     const batch *b = context;
     const size_t first = i * CHUNK, left = b->count - first;
-    rt_scalar_double_trace(b->scene, b->rays + first, left < CHUNK ? left : CHUNK, b->hits + first);
+    rt_scalar_double_trace_by(b->tree, b->scene, b->rays + first, left < CHUNK ? left : CHUNK,
+                              b->hits + first);
 }
 
 /* The scalar path on all cores, in batches between which it can be stopped. */
@@ -169,7 +171,8 @@ static bool trace_reference(study_state *s, const rt_scene *scene, ray_set *r)
     const size_t most = (size_t)threads * CHUNK;
     for (size_t first = 0; first < r->count; first += most) {
         const size_t left = r->count - first;
-        batch b = {scene, r->rays + first, r->reference + first, left < most ? left : most};
+        batch b = {s->tree, scene, r->rays + first, r->reference + first,
+                   left < most ? left : most};
         if (!rt_study_tick(s, 0.5 * (double)first / (double)r->count))
             return false;
         rt_parallel((b.count + CHUNK - 1) / CHUNK, threads, trace_chunk, &b);
@@ -177,24 +180,24 @@ static bool trace_reference(study_state *s, const rt_scene *scene, ray_set *r)
     return true;
 }
 
-static void compare_hits(const ray_set *r, rt_study_level *level)
+static void compare_hits(const ray_set *r, rt_study_entry *entry)
 {
     size_t agreeing = 0;
-    level->rays = r->count;
+    entry->rays = r->count;
     for (size_t i = 0; i < r->count; ++i) {
-        level->hits += r->reference[i].primitive != RT_MISS;
+        entry->hits += r->reference[i].primitive != RT_MISS;
         if (r->hits[i].primitive != r->reference[i].primitive)
-            ++level->disagreements;
+            ++entry->disagreements;
         else if (r->hits[i].primitive != RT_MISS)
             r->ulps[agreeing++] = rt_ulp_distance(r->hits[i].t, r->reference[i].t);
     }
     (void)rt_spread_of(r->ulps, agreeing); /* sorts */
-    level->t_p50 = rt_quantile(r->ulps, agreeing, 0.5);
-    level->t_p99 = rt_quantile(r->ulps, agreeing, 0.99);
-    level->t_max = rt_quantile(r->ulps, agreeing, 1.0);
+    entry->t_p50 = rt_quantile(r->ulps, agreeing, 0.5);
+    entry->t_p99 = rt_quantile(r->ulps, agreeing, 0.99);
+    entry->t_max = rt_quantile(r->ulps, agreeing, 1.0);
 }
 
-static bool trace_next(study_state *s, ray_set *r, rt_renderer *renderer, rt_study_level *level)
+static bool trace_next(study_state *s, ray_set *r, rt_renderer *renderer, rt_study_entry *entry)
 {
     size_t count = 0;
     for (size_t i = 0; i < r->count; ++i)
@@ -205,9 +208,9 @@ static bool trace_next(study_state *s, ray_set *r, rt_renderer *renderer, rt_stu
         }
     if (!rt_renderer_trace(renderer, r->next, count, r->next_hits, s->status))
         return false;
-    level->next_rays = count;
+    entry->next_rays = count;
     for (size_t i = 0; i < count; ++i)
-        level->self_hits += r->next_hits[i].primitive == r->hits[r->source[i]].primitive &&
+        entry->self_hits += r->next_hits[i].primitive == r->hits[r->source[i]].primitive &&
                             r->next_hits[i].t < r->at_once[i];
     return true;
 }
@@ -220,19 +223,21 @@ bool rt_study_trace_rays(study_state *s, rt_renderer *const *renderers)
     /* Odd, so that rays do not stand in columns of a picture of even width. */
     const size_t stride = ((pixels + RAYS_MOST - 1) / RAYS_MOST) | 1;
     ray_set r;
+    rt_study_begin_part(s, RT_WORK_RAYS, 1.0);
     bool good = make_set(&r, (pixels + stride - 1) / stride, s->status);
     if (good) {
         make_primary_rays(&reference, stride, r.rays, r.count);
         good = trace_reference(s, &reference, &r);
     }
-    for (size_t i = 0; good && i < s->study->level_count; ++i) {
-        rt_study_level *level = &s->study->levels[i];
+    for (size_t i = 0; good && i < s->study->entry_count; ++i) {
+        rt_study_entry *entry = &s->study->entries[i];
         good = rt_renderer_trace(renderers[i], r.rays, r.count, r.hits, s->status);
         if (good) {
-            compare_hits(&r, level);
-            good = trace_next(s, &r, renderers[i], level);
+            compare_hits(&r, entry);
+            good = trace_next(s, &r, renderers[i], entry);
         }
-        good = good && rt_study_tick(s, 0.5 + 0.5 * (double)(i + 1) / (int)RT_ACCURACY_COUNT);
+        good =
+            good && rt_study_tick(s, 0.5 + 0.5 * (double)(i + 1) / (double)s->study->entry_count);
     }
     free_set(&r);
     return good;

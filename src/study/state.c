@@ -2,17 +2,17 @@
 
 #include <string.h>
 
-void rt_study_begin_part(study_state *s, double seconds)
+#include "common/clock.h"
+
+void rt_study_begin_part(study_state *s, enum rt_work kind, double amount)
 {
-    s->done += s->part;
-    s->part = seconds;
+    rt_forecast_begin(&s->forecast, kind, amount, rt_clock_seconds());
 }
 
 static bool tick(void *context, double done)
 {
-    const study_state *s = context;
-    const double all = s->all > 0.0 ? (s->done + s->part * done) / s->all : 0.0;
-    return rt_watch_tick(s->watch, all < 1.0 ? all : 1.0);
+    study_state *s = context;
+    return rt_watch_tick(s->watch, rt_forecast_done(&s->forecast, done, rt_clock_seconds()));
 }
 
 bool rt_study_tick(study_state *s, double done)
@@ -25,8 +25,19 @@ rt_watch rt_study_watch(study_state *s)
     return (rt_watch){tick, s};
 }
 
+static bool tick_still(void *context, double done)
+{
+    (void)done;
+    return tick(context, 0.0);
+}
+
+rt_watch rt_study_watch_still(study_state *s)
+{
+    return (rt_watch){tick_still, s};
+}
+
 rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_bvh *bvh,
-                               enum rt_accuracy level, int samples)
+                               size_t device, enum rt_accuracy level, int samples)
 {
     rt_scene copy = *scene; /* the arrays stay the caller's */
     copy.accuracy = level;
@@ -35,17 +46,18 @@ rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_b
     effects.mode = s->how->effects;
     const rt_render_options options = {
         .lanes = s->how->lanes, .tile = s->how->tile, .effects = &effects};
-    return rt_renderer_new(s->how->device, &copy, bvh, &options, s->status);
+    return rt_renderer_new(s->how->devices[device], &copy, bvh, &options, s->status);
 }
 
 bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderers)
 {
-    memset(renderers, 0, RT_ACCURACY_COUNT * sizeof *renderers);
-    for (size_t i = 0; i < s->study->level_count; ++i) {
-        if (!rt_study_tick(s, 0.0))
+    memset(renderers, 0, RT_STUDY_ENTRIES_MOST * sizeof *renderers);
+    for (size_t i = 0; i < s->study->entry_count; ++i) {
+        if (!rt_study_tick(s, (double)i / (double)s->study->entry_count))
             return false;
+        const rt_study_entry *entry = &s->study->entries[i];
         renderers[i] =
-            rt_study_renderer(s, s->scene, s->how->bvh, s->study->levels[i].level, samples);
+            rt_study_renderer(s, s->scene, s->how->bvh, entry->device, entry->level, samples);
         if (!renderers[i])
             return false;
     }
@@ -54,6 +66,6 @@ bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderer
 
 void rt_study_free_renderers(rt_renderer **renderers)
 {
-    for (int i = 0; i < RT_ACCURACY_COUNT; ++i)
+    for (size_t i = 0; i < RT_STUDY_ENTRIES_MOST; ++i)
         rt_renderer_free(renderers[i]);
 }

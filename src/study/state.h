@@ -5,8 +5,10 @@
 #include <stdint.h>
 
 #include "common/watch.h"
+#include "reference/scalar.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
+#include "study/forecast.h"
 #include "study/result.h"
 
 typedef struct study_state {
@@ -15,23 +17,24 @@ typedef struct study_state {
     const rt_study_how *how;
     const rt_watch *watch;
     rt_status *status;
-    /* Progress, in seconds as they were reckoned: of all parts, of those done, of this one. */
-    double all, done, part;
+    rt_scalar_tree *tree; /* owned: the reference's, of the scene, or NULL */
+    rt_forecast forecast;
 } study_state;
 
-/* Begins a part of the work that is reckoned to take so many seconds, after the part before. */
-void rt_study_begin_part(study_state *s, double seconds);
+/* Begins a part of the work that is planned. */
+void rt_study_begin_part(study_state *s, enum rt_work kind, double amount);
 /* Tells how far the part is, 0 to 1; false, with code RT_INTERRUPTED, when it is to stop. */
 bool rt_study_tick(study_state *s, double done);
-/* The same as a watch. */
+/* The same as a watch, and as one of work that is no part's measure. */
 rt_watch rt_study_watch(study_state *s);
+rt_watch rt_study_watch_still(study_state *s);
 
-/* A renderer of `scene`, by its tree or NULL, at that level and count of samples. */
+/* A renderer of `scene`, by its tree or NULL, on the study's device of that index. */
 rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_bvh *bvh,
-                               enum rt_accuracy level, int samples);
+                               size_t device, enum rt_accuracy level, int samples);
 
-/* One renderer a level of the plan, in order, of the scene studied; the rest of the array, which
- * has RT_ACCURACY_COUNT, is NULL. To be freed after a failure too. */
+/* One renderer an entry, in order, of the scene studied; the rest of the array, which has
+ * RT_STUDY_ENTRIES_MOST, is NULL. To be freed after a failure too. */
 bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderers);
 void rt_study_free_renderers(rt_renderer **renderers);
 

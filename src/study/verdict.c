@@ -1,269 +1,291 @@
-#define _GNU_SOURCE
 #include "study/verdict.h"
 
-#include <stdio.h>
-#include <stdlib.h>
+#include <math.h>
 
-/* A level has to change more than one pixel for so many that too few samples make wrong. */
-#define HIDDEN_BY 100
-/* Ratios are told to two digits: a quartile that reads 1.00 is 1. */
-#define RATIO_MARGIN 0.005
+/* Ratios from here on are told as "times", smaller ones in per cent. */
+#define TIMES_FROM 1.95
 
-void rt_study_conclude(rt_study *study)
+static size_t last_of(const rt_study *study)
 {
-    rt_study_point points[RT_STUDY_SAMPLES_LISTED * RT_ACCURACY_COUNT];
-    for (size_t i = 0; i < study->cell_count; ++i)
-        points[i] = (rt_study_point){study->cells[i].kernel, study->cells[i].seen.rms};
-    for (size_t i = 0; i < study->cell_count; ++i)
-        study->cells[i].seen_is_dominated = rt_study_is_dominated(points, study->cell_count, i);
-    /* More samples do not make arithmetic better: here a level competes at its own count only. */
-    for (size_t i = 0; i < study->cell_count; ++i) {
-        const size_t first = i / study->level_count * study->level_count;
-        for (size_t k = 0; k < study->level_count; ++k)
-            points[k] = (rt_study_point){study->cells[first + k].kernel,
-                                         study->cells[first + k].arithmetic.rms};
-        study->cells[i].arithmetic_is_dominated =
-            rt_study_is_dominated(points, study->level_count, i - first);
-    }
+    return study->plan.sample_count - 1;
 }
 
-static bool is_seen(const rt_study *study, size_t sample_index, size_t pixels)
+static bool has_level(const rt_study *study, enum rt_accuracy level)
 {
-    return pixels * HIDDEN_BY > study->sampling[sample_index].over_1;
-}
-
-bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index)
-{
-    return is_seen(study, sample_index,
-                   rt_study_cell_at(study, sample_index, level_index)->changed);
-}
-
-bool rt_study_errs_visibly(const rt_study *study, size_t level_index)
-{
-    for (size_t i = 0; i < study->plan.sample_count; ++i)
-        if (is_seen(study, i, rt_study_cell_at(study, i, level_index)->arithmetic.over_1))
+    for (size_t i = 0; i < study->entry_count; ++i)
+        if (study->entries[i].level == level)
             return true;
     return false;
 }
 
-bool rt_study_is_free(const rt_spread *ratio)
+/* "fast and standard": the levels that are wrong on some device, or those that are not. Returns how
+ * many; NULL only counts. */
+static int list_levels(const rt_study *study, bool wrong, FILE *out)
 {
-    return ratio->low < 1.0 + RATIO_MARGIN && ratio->high > 1.0 - RATIO_MARGIN;
-}
-
-/* "1, 4 and 16": the counts at which the level can be seen, or those at which it cannot. */
-static void list_counts(const rt_study *study, size_t level_index, bool seen, FILE *out)
-{
-    size_t left = 0;
-    for (size_t i = 0; i < study->plan.sample_count; ++i)
-        left += rt_study_can_be_seen(study, i, level_index) == seen;
-    for (size_t i = 0; i < study->plan.sample_count; ++i)
-        if (rt_study_can_be_seen(study, i, level_index) == seen) {
+    int count = 0, left = 0;
+    for (int i = 0; i < RT_ACCURACY_COUNT; ++i)
+        count += has_level(study, (enum rt_accuracy)i) &&
+                 rt_study_level_is_wrong(study, (enum rt_accuracy)i) == wrong;
+    left = count;
+    for (int i = 0; out && i < RT_ACCURACY_COUNT; ++i)
+        if (has_level(study, (enum rt_accuracy)i) &&
+            rt_study_level_is_wrong(study, (enum rt_accuracy)i) == wrong) {
             --left;
-            fprintf(out, "%d%s", study->plan.samples[i], left > 1 ? ", " : left ? " and " : "");
-        }
-}
-
-/* What the level does to the picture at the finest count at which it can be seen. */
-static void say_how_much(const rt_study *study, size_t level_index, FILE *out)
-{
-    size_t i = study->plan.sample_count - 1;
-    while (!rt_study_can_be_seen(study, i, level_index))
-        --i;
-    const size_t base = rt_study_base_index(study);
-    const rt_study_cell *cell = rt_study_cell_at(study, i, level_index);
-    fprintf(
-        out,
-        " (at %d: %zu of %zu pixels by more than one step; arithmetic alone makes %zu pixels of "
-        "%s wrong by more than one step, and %zu of %s)",
-        study->plan.samples[i], cell->changed, (size_t)study->width * (size_t)study->height,
-        rt_study_cell_at(study, i, base)->arithmetic.over_1, rt_accuracy_name(study->base),
-        cell->arithmetic.over_1, rt_accuracy_name(cell->level));
-}
-
-/* At which counts a level can be seen: none, all, those from `turn` on, those before it, or some
- * other set. */
-enum pattern { SEEN_NEVER, SEEN_ALWAYS, SEEN_FROM, SEEN_BELOW, SEEN_HERE_AND_THERE };
-
-static enum pattern pattern_of(const rt_study *study, size_t level_index, size_t *turn)
-{
-    const size_t count = study->plan.sample_count;
-    const bool first = rt_study_can_be_seen(study, 0, level_index);
-    size_t i = 1;
-    while (i < count && rt_study_can_be_seen(study, i, level_index) == first)
-        ++i;
-    *turn = i;
-    if (i == count)
-        return first ? SEEN_ALWAYS : SEEN_NEVER;
-    while (i < count && rt_study_can_be_seen(study, i, level_index) != first)
-        ++i;
-    if (i < count)
-        return SEEN_HERE_AND_THERE;
-    return first ? SEEN_BELOW : SEEN_FROM;
-}
-
-static void say_what_it_buys(const rt_study *study, size_t level_index, FILE *out)
-{
-    const char *name = rt_accuracy_name(study->levels[level_index].level);
-    const int *samples = study->plan.samples;
-    const size_t count = study->plan.sample_count;
-    size_t turn = 0;
-    const enum pattern pattern = pattern_of(study, level_index, &turn);
-    switch (pattern) {
-    case SEEN_NEVER:
-        fprintf(out, "%s %d sample%s a pixel, %s changes nothing that you can see on this scene",
-                count > 1 ? "Up to" : "At", samples[count - 1], samples[count - 1] > 1 ? "s" : "",
-                name);
-        break;
-    case SEEN_ALWAYS:
-        fprintf(out, "At every count of samples, %s changes what you see on this scene", name);
-        break;
-    case SEEN_FROM:
-        fprintf(out,
-                "Below %d samples a pixel, %s changes nothing that you can see on this scene; from "
-                "%d on it does",
-                samples[turn], name, samples[turn]);
-        break;
-    case SEEN_BELOW:
-        fprintf(out,
-                "From %d samples a pixel on, %s changes nothing that you can see on this scene; "
-                "below it does",
-                samples[turn], name);
-        break;
-    case SEEN_HERE_AND_THERE:
-        fputs("At ", out);
-        list_counts(study, level_index, false, out);
-        fprintf(out, " samples a pixel, %s changes nothing that you can see on this scene; at ",
-                name);
-        list_counts(study, level_index, true, out);
-        fputs(" it does", out);
-        break;
-    }
-    if (pattern != SEEN_NEVER)
-        say_how_much(study, level_index, out);
-    fputc('.', out);
-}
-
-/* By the finest pictures, whose times are the longest and therefore the surest. */
-static void say_what_it_costs(const rt_study *study, size_t level_index, FILE *out)
-{
-    const rt_study_cell *cell = rt_study_cell_at(study, study->plan.sample_count - 1, level_index);
-    const rt_spread *r = &cell->ratio;
-    const char *base = rt_accuracy_name(study->base);
-    const char *time = study->kernel_is_wall ? "time" : "kernel time";
-    if (rt_study_is_free(r))
-        fprintf(out,
-                " Against %s it has no measurable cost: %.2f of its %s, quartiles %.2f to "
-                "%.2f.",
-                base, r->median, time, r->low, r->high);
-    else
-        fprintf(out, " It takes %.2f times the %s of %s, quartiles %.2f to %.2f.", r->median, time,
-                base, r->low, r->high);
-}
-
-void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out)
-{
-    const int *samples = study->plan.samples;
-    const size_t last = study->plan.sample_count - 1;
-    const rt_spread *r = &rt_study_cell_at(study, last, level_index)->ratio;
-    const char *base = rt_accuracy_name(study->base);
-    size_t turn = 0;
-    fprintf(out, "%s: ", rt_accuracy_name(study->levels[level_index].level));
-    if (study->levels[level_index].level == study->base) {
-        fputs("what the others are held against", out);
-        fputs(rt_study_errs_visibly(study, level_index) ? "; wrong where you can see it" : "", out);
-        return;
-    }
-    switch (pattern_of(study, level_index, &turn)) {
-    case SEEN_NEVER:
-        fprintf(out, "changes nothing that you can see up to %d samples", samples[last]);
-        break;
-    case SEEN_ALWAYS:
-        fputs("changes what you see at every count of samples", out);
-        break;
-    case SEEN_FROM:
-        fprintf(out, "changes what you see from %d samples on", samples[turn]);
-        break;
-    case SEEN_BELOW:
-        fprintf(out, "changes what you see below %d samples", samples[turn]);
-        break;
-    case SEEN_HERE_AND_THERE:
-        fputs("changes what you see at ", out);
-        list_counts(study, level_index, true, out);
-        fputs(" samples", out);
-        break;
-    }
-    if (rt_study_is_free(r))
-        fputs("; no measurable cost", out);
-    else
-        fprintf(out, "; %.2f times the time of %s", r->median, base);
-    fputs(rt_study_errs_visibly(study, level_index) ? "; wrong where you can see it" : "", out);
-}
-
-static bool levels_agree(const rt_study *study)
-{
-    size_t turn = 0;
-    for (size_t i = 0; i < study->level_count; ++i)
-        if (pattern_of(study, i, &turn) != SEEN_NEVER || rt_study_errs_visibly(study, i))
-            return false;
-    return study->level_count > 1;
-}
-
-/* Which levels go wrong where one can see it, and what to take in their place. */
-static void say_what_is_wrong(const rt_study *study, FILE *out)
-{
-    const size_t last = study->plan.sample_count - 1;
-    size_t wrong = 0, left = 0, best = study->level_count;
-    for (size_t k = 0; k < study->level_count; ++k) {
-        wrong += rt_study_errs_visibly(study, k);
-        if (!rt_study_errs_visibly(study, k) &&
-            (best == study->level_count || rt_study_cell_at(study, last, k)->kernel.median <
-                                               rt_study_cell_at(study, last, best)->kernel.median))
-            best = k;
-    }
-    left = wrong;
-    for (size_t k = 0; k < study->level_count; ++k)
-        if (rt_study_errs_visibly(study, k)) {
-            --left;
-            fprintf(out, "%s%s", rt_accuracy_name(study->levels[k].level),
+            fprintf(out, "%s%s", rt_accuracy_name((enum rt_accuracy)i),
                     left > 1 ? ", "
                     : left   ? " and "
                              : "");
         }
-    if (wrong > 0)
-        fprintf(out, " put%s pixels off by arithmetic where you can see it", wrong > 1 ? "" : "s");
-    else
-        fprintf(out, "No level studied puts pixels off by arithmetic where you could see it");
-    if (best == study->level_count)
-        fputs(", and no other was studied.\n", out);
-    else if (study->level_count == 1)
-        fputs(".\n", out);
-    else
-        fprintf(out, "; %s%s takes the least time.\n", wrong > 0 ? "of the others, " : "",
-                rt_accuracy_name(study->levels[best].level));
+    return count;
 }
 
-char *rt_study_verdict(const rt_study *study)
+static const char *doubt_in_short(enum rt_doubt kind)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    if (!out)
-        return NULL;
-    if (levels_agree(study))
-        fputs("The levels agree: this scene has no case so hard that one could see a difference. ",
-              out);
-    say_what_is_wrong(study, out);
-    for (size_t i = 0; i < study->level_count; ++i) {
-        if (study->levels[i].level == study->base)
-            continue;
-        fputc('\n', out);
-        say_what_it_buys(study, i, out);
-        say_what_it_costs(study, i, out);
-        fputc('\n', out);
+    static const char *const texts[] = {[RT_DOUBT_NONE] = "",
+                                        [RT_DOUBT_FEW] = "too few repeats",
+                                        [RT_DOUBT_BUSY] = "other programs kept the machine busy",
+                                        [RT_DOUBT_NO_GROWTH] =
+                                            "the times do not grow with the work",
+                                        [RT_DOUBT_UNEVEN] = "the times are too uneven"};
+    return texts[kind];
+}
+
+/* "fast and standard are wrong where you can see it". */
+static void say_wrong_levels(const rt_study *study, FILE *out)
+{
+    const int wrong = list_levels(study, true, out);
+    fprintf(out, " %s wrong where you can see it", wrong > 1 ? "are" : "is");
+}
+
+static void say_headline_in_doubt(const rt_study *study, enum rt_doubt doubt, FILE *out)
+{
+    fprintf(out, "Cannot tell what the levels cost: %s. ", doubt_in_short(doubt));
+    if (list_levels(study, true, NULL) == 0) {
+        fputs("None of them is wrong where you could see it.", out);
+        return;
     }
-    if (fclose(out) == 0)
-        return text;
-    free(text);
-    return NULL;
+    fputs("Wrong where you can see it: ", out);
+    if (list_levels(study, true, out) > 0 && list_levels(study, false, NULL) > 0) {
+        fputs("; right: ", out);
+        list_levels(study, false, out);
+    }
+    fputc('.', out);
+}
+
+void rt_study_say_headline(const rt_study *study, FILE *out)
+{
+    const int wrong = list_levels(study, true, NULL), right = list_levels(study, false, NULL);
+    const enum rt_doubt doubt = rt_study_doubt_of(study, 0).kind;
+    const size_t taken = rt_study_recommended(study, 0);
+    if (wrong + right > 1 && doubt != RT_DOUBT_NONE) {
+        say_headline_in_doubt(study, doubt, out);
+    } else if (taken == study->entry_count) {
+        say_wrong_levels(study, out);
+        fputs(", and no other was studied.", out);
+    } else if (wrong + right == 1) {
+        fprintf(out, "Nothing is wrong at %s that you could see.",
+                rt_accuracy_name(study->entries[taken].level));
+    } else {
+        fprintf(out, "Take %s: ", rt_accuracy_name(study->entries[taken].level));
+        if (wrong > 0)
+            say_wrong_levels(study, out);
+        else
+            fputs("you cannot see a difference between the levels, and none takes measurably less "
+                  "time",
+                  out);
+        fputc('.', out);
+    }
+}
+
+void rt_study_say_doubt(const rt_study *study, size_t device, FILE *out)
+{
+    const rt_study_doubt d = rt_study_doubt_of(study, device);
+    const rt_study_cell *cell = rt_study_cell_at(study, d.sample_index, d.entry);
+    char name[RT_STUDY_NAME_SIZE];
+    rt_study_entry_name(study, d.entry, name);
+    switch (d.kind) {
+    case RT_DOUBT_NONE:
+        return;
+    case RT_DOUBT_FEW:
+        fprintf(out, "Each picture was timed %d time%s; to tell times apart takes at least %d.",
+                study->rounds[d.sample_index], study->rounds[d.sample_index] > 1 ? "s" : "",
+                RT_STUDY_ROUNDS_LEAST);
+        return;
+    case RT_DOUBT_BUSY:
+        fprintf(out,
+                "Other programs held the processors for %.0f %% of the time that rt could "
+                "have used them.",
+                100.0 * study->devices[device].waited);
+        break;
+    case RT_DOUBT_NO_GROWTH:
+        fprintf(
+            out,
+            "At %s, %d samples a pixel took %.1f times the time of %d, for %.1f times the rays.",
+            name, study->plan.samples[d.sample_index],
+            cell->kernel.median /
+                rt_study_cell_at(study, d.sample_index - 1, d.entry)->kernel.median,
+            study->plan.samples[d.sample_index - 1],
+            (double)cell->rays /
+                (double)rt_study_cell_at(study, d.sample_index - 1, d.entry)->rays);
+        break;
+    case RT_DOUBT_UNEVEN:
+        fprintf(out,
+                "After %d rounds the time of %s is still between %.2f and %.2f of that of %s in "
+                "half of them, and beyond in the others.",
+                study->rounds[d.sample_index], name, cell->ratio.low, cell->ratio.high,
+                rt_accuracy_name(study->base));
+        break;
+    }
+    fputs(" Try again when nothing else runs.", out);
+}
+
+/* At which counts of samples an entry is off. */
+static void say_where(const rt_study *study, size_t entry_index, FILE *out)
+{
+    const size_t count = study->plan.sample_count;
+    size_t off = 0, left = 0;
+    for (size_t i = 0; i < count; ++i)
+        off += rt_study_is_off(study, i, entry_index);
+    if (off == count) {
+        fputs(count > 1 ? " at every count of samples" : "", out);
+        return;
+    }
+    left = off;
+    fputs(" at ", out);
+    for (size_t i = 0; i < count; ++i)
+        if (rt_study_is_off(study, i, entry_index)) {
+            --left;
+            fprintf(out, "%d%s", study->plan.samples[i], left > 1 ? ", " : left ? " and " : "");
+        }
+    fputs(" samples a pixel", out);
+}
+
+void rt_study_say_right(const rt_study *study, size_t entry_index, FILE *out)
+{
+    const size_t worst = rt_study_worst_count(study, entry_index);
+    if (worst == study->plan.sample_count) {
+        fputs("right, as far as you can see", out);
+        return;
+    }
+    const rt_study_cell *cell = rt_study_cell_at(study, worst, entry_index);
+    const double pixels = (double)study->width * study->height;
+    fputs("wrong where you can see it", out);
+    say_where(study, entry_index, out);
+    fprintf(out, " (at %d: %.2g %% of the pixels, the worst by %d steps of 256)",
+            study->plan.samples[worst], 100.0 * (double)cell->visible / pixels,
+            cell->arithmetic.max_step);
+}
+
+void rt_study_say_cost(const rt_study *study, size_t entry_index, FILE *out)
+{
+    const rt_spread *r = &rt_study_cell_at(study, last_of(study), entry_index)->ratio;
+    const char *base = rt_accuracy_name(study->base);
+    if (rt_study_doubt_of(study, study->entries[entry_index].device).kind != RT_DOUBT_NONE)
+        fputs("cannot tell", out);
+    else if (study->entries[entry_index].level == study->base)
+        fputs("what times are held against", out);
+    else if (rt_study_is_free(r))
+        fprintf(out, "no measurable difference to the time of %s", base);
+    else if (r->median >= TIMES_FROM)
+        fprintf(out, "%.1f times the time of %s", r->median, base);
+    else
+        fprintf(out, "%.0f %% %s time than %s", 100.0 * fabs(r->median - 1.0),
+                r->median > 1.0 ? "more" : "less", base);
+}
+
+void rt_study_say_briefly(const rt_study *study, size_t entry_index, FILE *out)
+{
+    char name[RT_STUDY_NAME_SIZE];
+    fprintf(out, "%s: %s", rt_study_entry_name(study, entry_index, name),
+            rt_study_is_wrong(study, entry_index) ? "wrong where you can see it" : "right");
+    if (study->entries[entry_index].level == study->base)
+        return;
+    fputs(rt_study_doubt_of(study, study->entries[entry_index].device).kind != RT_DOUBT_NONE
+              ? "; its time: "
+              : "; ",
+          out);
+    rt_study_say_cost(study, entry_index, out);
+}
+
+void rt_study_say_entry(const rt_study *study, size_t entry_index, FILE *out)
+{
+    const rt_study_cell *cell = rt_study_cell_at(study, last_of(study), entry_index);
+    const size_t device = study->entries[entry_index].device;
+    char name[RT_STUDY_NAME_SIZE];
+    fprintf(out, "%s: ", rt_study_entry_name(study, entry_index, name));
+    rt_study_say_right(study, entry_index, out);
+    if (rt_study_doubt_of(study, device).kind != RT_DOUBT_NONE) {
+        fputs(". What it costs: cannot tell.", out);
+        return;
+    }
+    fprintf(out, ". At %d sample%s a pixel a picture takes %.3g ms",
+            study->plan.samples[last_of(study)], study->plan.samples[last_of(study)] > 1 ? "s" : "",
+            1e3 * cell->kernel.median);
+    if (study->entries[entry_index].level != study->base) {
+        fputs(", ", out);
+        rt_study_say_cost(study, entry_index, out);
+        fprintf(out, " (quartiles of the ratio: %.2f to %.2f)", cell->ratio.low, cell->ratio.high);
+    }
+    fputc('.', out);
+}
+
+static void say_device(const rt_study *study, size_t device, FILE *out)
+{
+    fprintf(out, "device %zu (%s)", device, study->devices[device].name);
+}
+
+void rt_study_say_devices(const rt_study *study, size_t device, FILE *out)
+{
+    const size_t taken = rt_study_recommended(study, 0);
+    const enum rt_accuracy level =
+        taken == study->entry_count ? study->base : study->entries[taken].level;
+    const size_t here = rt_study_find(study, device, level), first = rt_study_find(study, 0, level);
+    const enum rt_doubt mine = rt_study_doubt_of(study, device).kind;
+    const enum rt_doubt doubt = mine != RT_DOUBT_NONE ? mine : rt_study_doubt_of(study, 0).kind;
+    if (here == study->entry_count || first == study->entry_count) {
+        say_device(study, here == study->entry_count ? device : 0, out);
+        fprintf(out, " does not have the level %s, so there is nothing to compare.",
+                rt_accuracy_name(level));
+        return;
+    }
+    const rt_study_cell *cell = rt_study_cell_at(study, last_of(study), here);
+    const rt_spread *r = &cell->ratio_to_first;
+    const bool is_free = rt_study_is_free(r), is_slower = r->median > 1.0;
+    if (doubt != RT_DOUBT_NONE || !rt_study_is_narrow(r)) {
+        fputs("Cannot tell which is faster, ", out);
+        say_device(study, 0, out);
+        fputs(" or ", out);
+        say_device(study, device, out);
+        fprintf(out, ": %s.", doubt_in_short(doubt != RT_DOUBT_NONE ? doubt : RT_DOUBT_UNEVEN));
+        return;
+    }
+    say_device(study, is_slower ? 0 : device, out);
+    if (is_free)
+        fputs(" is as fast as ", out);
+    else
+        fprintf(out, " is %.3g times as fast as ", is_slower ? r->median : 1.0 / r->median);
+    say_device(study, is_slower ? device : 0, out);
+    fprintf(out, " at %s: %.3g ms a picture to %.3g ms.", rt_accuracy_name(level),
+            1e3 * rt_study_cell_at(study, last_of(study), is_slower ? first : here)->kernel.median,
+            1e3 * rt_study_cell_at(study, last_of(study), is_slower ? here : first)->kernel.median);
+}
+
+void rt_study_say_all(const rt_study *study, FILE *out)
+{
+    rt_study_say_headline(study, out);
+    fputs("\n\n", out);
+    for (size_t d = 0; d < study->device_count; ++d) {
+        if (d > 0) {
+            rt_study_say_devices(study, d, out);
+            fputs("\n\n", out);
+        }
+        if (rt_study_doubt_of(study, d).kind != RT_DOUBT_NONE) {
+            rt_study_say_doubt(study, d, out);
+            fputs("\n\n", out);
+        }
+    }
+    for (size_t i = 0; i < study->entry_count; ++i) {
+        rt_study_say_entry(study, i, out);
+        fputs(i + 1 < study->entry_count ? "\n\n" : "\n", out);
+    }
 }

@@ -1,31 +1,31 @@
-/* From a study's figures to the sentences that a user takes away. */
+/* What a study says, in the sentences that a user takes away; judge.h decides what they say. */
 #ifndef RT_STUDY_VERDICT_H
 #define RT_STUDY_VERDICT_H
 
 #include <stdio.h>
 
-#include "study/result.h"
+#include "study/judge.h"
 
-/* Fills in what follows from the measurements: which cells are dominated. */
-void rt_study_conclude(rt_study *study);
+/* All of these write plain text, without a newline at the end. */
 
-/* Whether the level changes something that one can see at that count: it changes pixels by more
- * than one step from the base level, and more than one for every hundred that too few samples make
- * wrong by more than one step anyway. */
-bool rt_study_can_be_seen(const rt_study *study, size_t sample_index, size_t level_index);
+/* The whole in one or two sentences: which level to take and why, or why that cannot be told. */
+void rt_study_say_headline(const rt_study *study, FILE *out);
 
-/* Whether at some count arithmetic alone puts so many pixels of the level off from the reference.
- */
-bool rt_study_errs_visibly(const rt_study *study, size_t level_index);
+/* Why the times of a device say nothing, where they do. */
+void rt_study_say_doubt(const rt_study *study, size_t device, FILE *out);
 
-/* Whether the quartiles of the ratio have 1, to two digits, between them: no measurable cost. */
-bool rt_study_is_free(const rt_spread *ratio);
+/* Whether an entry is right, and what it takes. */
+void rt_study_say_entry(const rt_study *study, size_t entry_index, FILE *out);
+/* The same in a few words, for the key of the plot. */
+void rt_study_say_briefly(const rt_study *study, size_t entry_index, FILE *out);
+/* Whether it is right, in words for a table, and its time against the base level's. */
+void rt_study_say_right(const rt_study *study, size_t entry_index, FILE *out);
+void rt_study_say_cost(const rt_study *study, size_t entry_index, FILE *out);
 
-/* What to take away, a sentence or two a paragraph, with an empty line between paragraphs; the
- * caller frees it. NULL without memory. */
-char *rt_study_verdict(const rt_study *study);
+/* Which is faster, a device or the first one, and by how much. */
+void rt_study_say_devices(const rt_study *study, size_t device, FILE *out);
 
-/* The same of one level in a few words, for the key of the plot. */
-void rt_study_say_briefly(const rt_study *study, size_t level_index, FILE *out);
+/* All of it, a paragraph each, with an empty line between; ends in a newline. */
+void rt_study_say_all(const rt_study *study, FILE *out);
 
 #endif

@@ -2,6 +2,7 @@
 #include "support/support.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "study/figures.h"
@@ -80,6 +81,36 @@ static void errors_of_pictures(void **state)
     rt_image_clear(&b);
 }
 
+/* A row of pixels, of which the tenth is off by 20 steps by noise: it hides 40 steps up to two
+ * pixels away, and elsewhere more than one step is visible. */
+static void visible_pixels(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    rt_image picture, reference, converged;
+    assert_good(rt_image_init(&picture, 20, 5, false, &status), &status);
+    assert_good(rt_image_init(&reference, 20, 5, false, &status), &status);
+    assert_good(rt_image_init(&converged, 20, 5, false, &status), &status);
+    converged.rgb[3 * (2 * 20 + 10) + 1] = 20.0f / 255.0f;
+    uint8_t *noise = rt_study_noise_of(&reference, &converged);
+    assert_non_null(noise);
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 20; ++x)
+            assert_int_equal(noise[y * 20 + x], x >= 8 && x <= 12 ? 20 : 0);
+    static const int steps[] = {0, 1, 2, 40, 41, 255};
+    for (int at = 0; at < 20; ++at)
+        for (size_t i = 0; i < 6; ++i) {
+            picture.rgb[3 * at] = (float)steps[i] / 255.0f;
+            assert_int_equal(rt_study_count_visible(&picture, &reference, noise),
+                             steps[i] > (at >= 8 && at <= 12 ? 40 : 1));
+            picture.rgb[3 * at] = 0.0f;
+        }
+    free(noise);
+    rt_image_clear(&picture);
+    rt_image_clear(&reference);
+    rt_image_clear(&converged);
+}
+
 static rt_study_point point(double time, double spread, double error)
 {
     return (rt_study_point){{time - spread, time, time + spread}, error};
@@ -113,9 +144,8 @@ static void domination(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantiles),
-        cmocka_unit_test(ulps),
-        cmocka_unit_test(errors_of_pictures),
+        cmocka_unit_test(quantiles),          cmocka_unit_test(ulps),
+        cmocka_unit_test(errors_of_pictures), cmocka_unit_test(visible_pixels),
         cmocka_unit_test(domination),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

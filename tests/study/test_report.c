@@ -1,17 +1,22 @@
-/* What a study says and writes, of figures that are made up. */
+/* The files of a study, of figures that are made up. */
 #define _GNU_SOURCE
+#include "support/made_up.h"
 #include "support/support.h"
 
+#include <ctype.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/csv.h"
+#include "study/html.h"
+#include "study/judge.h"
+#include "study/markdown.h"
 #include "study/plot.h"
-#include "study/report.h"
-#include "study/table.h"
-#include "study/verdict.h"
+#include "study/strip.h"
+#include "study/study_json.h"
 
 static void assert_says(const char *text, const char *words)
 {
@@ -19,174 +24,15 @@ static void assert_says(const char *text, const char *words)
         fail_msg("'%s' is not in: %s", words, text);
 }
 
-/* A study of standard and robust at 1, 4 and 16 samples, as somebody might have measured it: too
- * few samples put 1000 pixels off, then 500, then 100. */
-static void make_up(rt_study *study, rt_study_cell cells[6])
-{
-    static const rt_device device = {
-        .name = "a \"device\"", .platform_name = "platform", .driver = "1"};
-    static const size_t off[] = {1000, 500, 100};
-    *study = (rt_study){.scene = "made, up.txt",
-                        .device = &device,
-                        .width = 100,
-                        .height = 100,
-                        .plan = {{false, true, true, false}, {1, 4, 16}, 3, 9},
-                        .base = RT_ACCURACY_STANDARD,
-                        .reference_is_scalar = true,
-                        .reference_level = RT_ACCURACY_DOUBLE,
-                        .converged_samples = 64,
-                        .level_count = 2,
-                        .cells = cells,
-                        .cell_count = 6,
-                        .no_edges = "the scene has no triangles"};
-    for (size_t i = 0; i < 6; ++i) {
-        const double ms = 1e-3 * study->plan.samples[i / 2] * (i % 2 ? 1.5 : 1.0);
-        const double ratio = i % 2 ? 1.5 : 1.0;
-        cells[i] = (rt_study_cell){.level = i % 2 ? RT_ACCURACY_ROBUST : RT_ACCURACY_STANDARD,
-                                   .samples = study->plan.samples[i / 2],
-                                   .kernel = {0.99 * ms, ms, 1.01 * ms},
-                                   .ratio = {0.99 * ratio, ratio, 1.01 * ratio},
-                                   .seen = {.over_1 = off[i / 2], .rms = 4.0 / (double)(1 + i / 2)},
-                                   .arithmetic = {.rms = i % 2 ? 0.0 : 0.01}};
-        study->sampling[i / 2] = (rt_study_error){.over_1 = off[i / 2], .rms = 4.0};
-    }
-    for (size_t i = 0; i < 2; ++i)
-        study->levels[i] = (rt_study_level){.level = i ? RT_ACCURACY_ROBUST : RT_ACCURACY_STANDARD,
-                                            .rays = 10000,
-                                            .t_p50 = NAN,
-                                            .t_p99 = NAN,
-                                            .t_max = NAN};
-}
-
-/* The verdict where robust changes so many pixels at 1, 4 and 16 samples. */
-static void assert_verdict(size_t at_1, size_t at_4, size_t at_16, const char *words)
-{
-    rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    cells[1].changed = at_1;
-    cells[3].changed = at_4;
-    cells[5].changed = at_16;
-    char *text = rt_study_verdict(&study);
-    assert_non_null(text);
-    assert_says(text, words);
-    assert_true((strstr(text, "The levels agree") != NULL) ==
-                (at_1 <= 10 && at_4 <= 5 && at_16 <= 1));
-    free(text);
-}
-
-static void what_a_level_buys(void **state)
-{
-    (void)state;
-    assert_verdict(0, 0, 0, "Up to 16 samples a pixel, robust changes nothing that you can see");
-    assert_verdict(10, 5, 1, "Up to 16 samples a pixel, robust changes nothing that you can see");
-    assert_verdict(10, 5, 2,
-                   "Below 16 samples a pixel, robust changes nothing that you can see on "
-                   "this scene; from 16 on it does (at 16: 2 of 10000 pixels");
-    assert_verdict(10, 6, 2, "Below 4 samples a pixel, robust changes nothing that you can see");
-    assert_verdict(11, 6, 2, "At every count of samples, robust changes what you see");
-    assert_verdict(11, 5, 1,
-                   "From 4 samples a pixel on, robust changes nothing that you can see on "
-                   "this scene; below it does (at 1: 11 of 10000 pixels");
-    assert_verdict(10, 6, 1,
-                   "At 1 and 16 samples a pixel, robust changes nothing that you can see "
-                   "on this scene; at 4 it does (at 4: 6 of");
-}
-
-static void what_a_level_costs(void **state)
-{
-    (void)state;
-    rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    char *text = rt_study_verdict(&study);
-    assert_says(text, "It takes 1.50 times the kernel time of standard, quartiles 1.48 to 1.52.");
-    free(text);
-    /* 1 is between the quartiles, or just one of them. */
-    cells[5].ratio = (rt_spread){0.98, 1.02, 1.05};
-    text = rt_study_verdict(&study);
-    assert_says(text, "Against standard it has no measurable cost: 1.02 of its kernel time, "
-                      "quartiles 0.98 to 1.05.");
-    free(text);
-    assert_true(rt_study_is_free(&(rt_spread){1.0, 1.1, 1.2}));
-    assert_true(rt_study_is_free(&(rt_spread){1.004, 1.1, 1.2}));
-    assert_false(rt_study_is_free(&(rt_spread){1.01, 1.1, 1.2}));
-    assert_false(rt_study_is_free(&(rt_spread){0.8, 0.9, 0.99}));
-    study.kernel_is_wall = true;
-    cells[5].ratio = (rt_spread){1.1, 1.2, 1.3};
-    text = rt_study_verdict(&study);
-    assert_says(text, "It takes 1.20 times the time of standard");
-    free(text);
-}
-
-/* By arithmetic; robust is exact unless said otherwise. */
-static void what_goes_wrong(void **state)
-{
-    (void)state;
-    rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    char *text = rt_study_verdict(&study);
-    assert_says(text, "The levels agree: this scene has no case so hard that one could see a "
-                      "difference. No level studied puts pixels off by arithmetic where you could "
-                      "see it; standard takes the least time.\n");
-    free(text);
-    cells[4].arithmetic.over_1 = 1; /* hidden by 100 that too few samples put off */
-    text = rt_study_verdict(&study);
-    assert_says(text, "The levels agree");
-    free(text);
-    cells[4].arithmetic.over_1 = 2;
-    text = rt_study_verdict(&study);
-    assert_null(strstr(text, "The levels agree"));
-    assert_says(text, "standard puts pixels off by arithmetic where you can see it; of the others, "
-                      "robust takes the least time.\n");
-    free(text);
-    cells[1].arithmetic.over_1 = 11;
-    text = rt_study_verdict(&study);
-    assert_says(text, "standard and robust put pixels off by arithmetic where you can see it, and "
-                      "no other was studied.\n");
-    free(text);
-    cells[0] = cells[1];
-    study.level_count = study.plan.sample_count = 1;
-    text = rt_study_verdict(&study);
-    assert_string_equal(text, "standard puts pixels off by arithmetic where you can see it, and no "
-                              "other was studied.\n");
-    free(text);
-    cells[0].arithmetic.over_1 = 0;
-    text = rt_study_verdict(&study);
-    assert_string_equal(text, "No level studied puts pixels off by arithmetic where you could see "
-                              "it.\n");
-    free(text);
-}
-
-/* Robust has no error of arithmetic; against the converged picture it is as good as standard. */
-static void what_is_dominated(void **state)
-{
-    (void)state;
-    rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    rt_study_conclude(&study);
-    for (size_t i = 0; i < 6; ++i) {
-        assert_int_equal(cells[i].seen_is_dominated, i % 2);
-        assert_int_equal(cells[i].arithmetic_is_dominated, false);
-    }
-    cells[3].arithmetic.rms = 0.02;
-    rt_study_conclude(&study);
-    assert_true(cells[3].arithmetic_is_dominated);
-    assert_false(cells[2].arithmetic_is_dominated);
-}
-
-static char *written(bool (*write)(const rt_study *, rt_output *, rt_status *),
-                     const rt_study *study)
-{
-    rt_status status = RT_STATUS_INIT;
-    rt_output output;
-    assert_good(rt_output_open(&output, test_path("made-up"), &status), &status);
-    assert_good(write(study, &output, &status), &status);
-    assert_good(rt_output_commit(&output, &status), &status);
-    return test_read_file(test_path("made-up"), NULL);
-}
+/* What goes to `out` in a block, as text. */
+#define PRINTED(text, print)                                                                       \
+    do {                                                                                           \
+        size_t size_ = 0;                                                                          \
+        FILE *out = open_memstream(&(text), &size_);                                               \
+        assert_non_null(out);                                                                      \
+        print;                                                                                     \
+        assert_int_equal(fclose(out), 0);                                                          \
+    } while (0)
 
 /* Fields with commas and quotes are quoted, every line has as many as the first, and ends in CRLF;
  * what was not measured is an empty field. */
@@ -194,132 +40,319 @@ static void csv(void **state)
 {
     (void)state;
     rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    char *text = written(rt_study_write_csv, &study);
+    char *text = NULL;
+    test_make_up_study(&study, 1);
+    PRINTED(text, rt_study_print_csv(&study, out));
     assert_int_equal(test_count_text(text, "\r\n"), 7);
     assert_int_equal(test_count_text(text, "\n"), 7);
     assert_int_equal(test_count_text(text, "\n\"made, up.txt\",\"a \"\"device\"\"\",100,100,"), 6);
-    assert_int_equal(test_count_text(text, ",robust,16,"), 1);
+    assert_int_equal(test_count_text(text, ",robust,16,160000,"), 1);
+    assert_says(text, ",seconds_kernel_q1,seconds_kernel_median,");
+    assert_says(text, ",against_converged_rms_steps,");
     const size_t columns = test_count_text(strtok(text, "\n"), ",");
     for (int i = 0; i < 6; ++i) {
         const char *line = strtok(NULL, "\n");
         assert_int_equal(test_count_text(line, ","), columns + 1); /* one is within a field */
-        assert_non_null(strstr(line, ",10000,0,0,,,,0,0,,,\r"));
+        assert_non_null(strstr(line, ",10000,5000,0,,,,0,0,0,0,0\r"));
     }
     free(text);
+    rt_study_clear(&study);
 }
 
-static void json(void **state)
+static void write_json(const rt_study *study, const char *path)
+{
+    rt_status status = RT_STATUS_INIT;
+    rt_output output;
+    assert_good(rt_output_open(&output, path, &status), &status);
+    assert_good(rt_study_write_json(study, &output, &status), &status);
+    assert_good(rt_output_commit(&output, &status), &status);
+}
+
+/* What is read is what was written, to the byte when it is written again. */
+static void json_there_and_back(void **state)
+{
+    (void)state;
+    rt_status status = RT_STATUS_INIT;
+    rt_study study, read;
+    test_make_up_study(&study, 2);
+    study.devices[1].lacks[RT_ACCURACY_DOUBLE] = true;
+    study.devices[1].kernel_is_wall = true;
+    study.devices[0].waited = 0.25;
+    test_cell(&study, RT_ACCURACY_ROBUST, 2)->visible = 77;
+    write_json(&study, test_path("a.json"));
+    assert_good(rt_study_read_json(&read, test_path("a.json"), &status), &status);
+    assert_int_equal(read.entry_count, 4);
+    assert_string_equal(read.devices[1].name, "a \"device\"");
+    assert_true(read.devices[1].lacks[RT_ACCURACY_DOUBLE] && read.devices[1].kernel_is_wall);
+    assert_int_equal(read.plan.samples[2], 16);
+    assert_int_equal(read.rounds[2], 9);
+    assert_true(isnan(read.entries[0].t_p50));
+    assert_int_equal(test_cell(&read, RT_ACCURACY_ROBUST, 2)->visible, 77);
+    assert_near(test_cell(&read, RT_ACCURACY_ROBUST, 2)->kernel.high, 0.024 * 1.01, 1e-9);
+    write_json(&read, test_path("b.json"));
+    char *a = test_read_file(test_path("a.json"), NULL);
+    char *b = test_read_file(test_path("b.json"), NULL);
+    assert_string_equal(a, b);
+    free(a);
+    free(b);
+    rt_study_clear(&read);
+    study.edges = RT_EDGES_TRACED;
+    write_json(&study, test_path("a.json"));
+    assert_good(rt_study_read_json(&read, test_path("a.json"), &status), &status);
+    assert_int_equal(read.edges, RT_EDGES_TRACED);
+    rt_study_clear(&read);
+    rt_study_clear(&study);
+}
+
+static void assert_refused(const char *path, const char *words)
+{
+    rt_status status = RT_STATUS_INIT;
+    rt_study study;
+    assert_false(rt_study_read_json(&study, path, &status));
+    assert_int_equal(status.code, RT_ERROR_SCENE);
+    assert_says(status.text, words);
+    assert_null(study.cells);
+    rt_status_clear(&status);
+}
+
+/* Each member of the file, left out or of another type, is an error that names it; and so is each
+ * prefix of the file, and each number made too large for what it counts. */
+static void json_that_is_damaged(void **state)
 {
     (void)state;
     rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    char *text = written(rt_study_write_json, &study);
     json_error_t error;
-    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, &error);
-    if (!root)
-        fail_msg("%s", error.text);
-    assert_int_equal(json_array_size(json_object_get(root, "pictures")), 6);
-    assert_int_equal(json_array_size(json_object_get(root, "same_rays")), 2);
-    const json_t *level = json_array_get(json_object_get(root, "same_rays"), 0);
-    assert_true(json_is_null(json_object_get(level, "leaks")));
-    assert_true(json_is_null(json_object_get(json_object_get(level, "t_error_ulp"), "p50")));
+    const char *path = test_path("damaged.json");
+    test_make_up_study(&study, 1);
+    write_json(&study, path);
+    size_t length = 0;
+    char *whole = test_read_file(path, &length);
+    json_t *root = json_loads(whole, 0, &error);
+    const char *key;
+    json_t *value;
+    json_object_foreach(root, key, value)
+    {
+        if (strcmp(key, "verdict") == 0)
+            continue; /* for readers alone */
+        json_t *less = json_deep_copy(root);
+        json_object_set_new(less, key, json_real(0.5));
+        assert_int_equal(json_dump_file(less, path, 0), 0);
+        assert_refused(path, "this is not a report of --study");
+        json_object_del(less, key);
+        assert_int_equal(json_dump_file(less, path, 0), 0);
+        assert_refused(path, "this is not a report of --study");
+        json_decref(less);
+    }
+    json_t *cell = json_array_get(json_object_get(root, "pictures"), 3);
+    json_object_del(cell, "visible_pixels");
+    assert_int_equal(json_dump_file(root, path, 0), 0);
+    assert_refused(path, "pictures: visible_pixels");
+    json_t *entry = json_array_get(json_object_get(root, "same_rays"), 1);
+    json_object_set_new(entry, "device", json_integer(7));
+    assert_int_equal(json_dump_file(root, path, 0), 0);
+    assert_refused(path, "same_rays: device");
     json_decref(root);
-    free(text);
-}
-
-static bool write_md(const rt_study *study, rt_output *output, rt_status *status)
-{
-    return rt_study_write_md(study, NULL, output, status);
+    for (size_t i = 0; i + 2 < length; i += 97) {
+        test_write_file(path, whole, i);
+        assert_refused(path, "damaged.json:");
+    }
+    assert_refused(test_path("missing.json"), "No such file or directory");
+    free(whole);
+    rt_study_clear(&study);
 }
 
 static void md(void **state)
 {
     (void)state;
     rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
-    char *text = written(write_md, &study);
+    char *text = NULL;
+    test_make_up_study(&study, 1);
+    PRINTED(text, rt_study_print_markdown(&study, "name", true, true, out));
+    assert_says(text, "# What accuracy costs: made, up.txt\n\n**Take standard: ");
+    assert_says(text, "](name-pictures.png)");
+    assert_says(text, "](name.svg)");
+    assert_true(strstr(text, "-pictures.png") < strstr(text, "name.svg"));
     assert_says(text, "\n| 16 | robust | 24 | 1.50 (1.48 to 1.52) | ");
     assert_says(text, "scalar path in double, at 64 samples");
     assert_says(text, "not applicable, the scene has no triangles.");
     assert_null(strstr(text, "does not have"));
-    assert_null(strstr(text, "!["));
     free(text);
     /* On a poorer device, where the scalar path takes too long. */
-    study.lacks[RT_ACCURACY_DOUBLE] = true;
+    study.devices[0].lacks[RT_ACCURACY_DOUBLE] = true;
+    study.devices[0].kernel_is_wall = true;
     study.reference_is_scalar = false;
     study.reference_level = RT_ACCURACY_ROBUST;
     study.reference_seconds = 123.4;
-    study.kernel_is_wall = true;
-    text = written(write_md, &study);
+    test_cell(&study, RT_ACCURACY_ROBUST, 0)->ratio = (rt_spread){0.9, 1.0, 1.2};
+    test_cell(&study, RT_ACCURACY_ROBUST, 1)->ratio = (rt_spread){0.98, 1.0, 1.02};
+    PRINTED(text, rt_study_print_markdown(&study, "name", false, false, out));
     assert_says(text, "This device does not have the level double.");
-    assert_says(text,
-                "would take 123 s for one sample a pixel, so the reference of the pictures is "
-                "the device at robust");
-    assert_says(text, " | the reference | | |\n");
-    assert_says(text, "This device has no clock");
+    assert_says(text, "would take 123 s for one sample a pixel, so the reference of the pictures "
+                      "is a \"device\" at robust");
+    assert_says(text, " | the reference |");
+    assert_says(text, "has no clock");
+    assert_says(text, "| cannot tell (0.90 to 1.20) |");
+    assert_says(text, "| no measurable difference (0.98 to 1.02) |");
+    assert_null(strstr(text, "!["));
     free(text);
+    rt_study_clear(&study);
 }
 
-static char *script_of(const rt_study *study)
+/* Nothing that a page loads: no attribute names a file or an address. */
+static void assert_stands_alone(const char *page)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    rt_study_plot_script(study, "a.svg", "it's.png", out);
-    assert_int_equal(fclose(out), 0);
-    return text;
+    static const char *const attributes[] = {"src", "href", "data", "poster", "action"};
+    for (size_t i = 0; i < sizeof attributes / sizeof *attributes; ++i)
+        for (const char *p = page; (p = strstr(p, attributes[i]));) {
+            p += strlen(attributes[i]);
+            const char *value = p + strspn(p, " ");
+            if (*value != '=')
+                continue;
+            value += 1 + strspn(value + 1, " \"'");
+            if (strncmp(value, "data:", 5) != 0 && *value != '#')
+                fail_msg("the page loads %.40s", value);
+        }
+    assert_null(strstr(page, "url("));
+    assert_null(strstr(page, "@import"));
+    assert_null(strstr(page, "<script"));
+    assert_null(strstr(page, "<link"));
 }
 
-/* What has no logarithm is drawn at the tick 0; what another does as well is grey; leaks are drawn
- * where they were looked for. */
+static void html(void **state)
+{
+    (void)state;
+    rt_study study;
+    char *text = NULL;
+    test_make_up_study(&study, 1);
+    rt_file_text strip = {(char[]){"\x89PNG!"}, 5};
+    rt_file_text plot = {(char[]){"<?xml version='1.0'?><svg><use href='#a'/></svg>"}, 48};
+    free(study.scene);
+    study.scene = strdup("<it's & \"so\">.txt");
+    PRINTED(text, rt_study_print_html(&study, &strip, &plot, out));
+    assert_stands_alone(text);
+    assert_says(text, "src=\"data:image/png;base64,iVBORyE=\"");
+    assert_says(text, "<figure><svg><use href='#a'/></svg></figure>");
+    assert_says(text, "&lt;it's &amp; &quot;so&quot;&gt;.txt");
+    assert_says(text, "<h1>Take standard: ");
+    assert_null(strstr(text, "<?xml"));
+    /* The pictures come first, then what is right, then the plot, then the figures. */
+    const char *const order[] = {"<h1>", "<img ", "its picture right?", "<svg", ">Pictures<"};
+    for (int i = 1; i < 5; ++i)
+        assert_true(strstr(text, order[i - 1]) < strstr(text, order[i]));
+    assert_says(text, ">64 steps and more<");
+    free(text);
+    PRINTED(text, rt_study_print_html(&study, &(rt_file_text){0}, &(rt_file_text){0}, out));
+    assert_stands_alone(text);
+    assert_says(text, "There is no plot");
+    assert_says(text, "The pictures are not here");
+    free(text);
+    rt_study_clear(&study);
+}
+
+/* RFC 4648, section 10. */
+static void base64(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {{"", ""},
+                                           {"f", "Zg=="},
+                                           {"fo", "Zm8="},
+                                           {"foo", "Zm9v"},
+                                           {"foob", "Zm9vYg=="},
+                                           {"fooba", "Zm9vYmE="},
+                                           {"foobar", "Zm9vYmFy"},
+                                           {"\xff\xfe\xfb", "//77"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
+        char *text = NULL;
+        PRINTED(text, rt_print_base64(pairs[i][0], strlen(pairs[i][0]), out));
+        assert_string_equal(text, pairs[i][1]);
+        free(text);
+    }
+}
+
+/* What has no logarithm is drawn at the tick 0; what another does as well is pale; leaks are drawn
+ * where they were looked for. The title is the verdict, and the axes are words. */
 static void the_plot(void **state)
 {
     (void)state;
     rt_study study;
-    rt_study_cell cells[6];
-    make_up(&study, cells);
+    char *text = NULL;
+    test_make_up_study(&study, 1);
+    test_cell(&study, RT_ACCURACY_STANDARD, 2)->visible = 200;
     rt_study_conclude(&study);
-    char *text = script_of(&study);
+    PRINTED(text, rt_study_plot_script(&study, "a.svg", "it's.png", out));
     assert_says(text, "\nset output 'a.svg'\n");
     assert_says(text, "\nset output 'it''s.png'\n");
-    assert_says(text, "$standard_0 << END\n1 1 0.99 1.01 4 0\n4 4 3.96 4.04 2 0\n");
-    assert_says(text, "$robust_0 << END\n1 1.5 1.485 1.515 4 1\n");
-    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 0.001 0\n");
-    assert_says(text, "set ytics add (\"0\" 0.001)");
-    assert_says(text, "\"robust: changes nothing that you can see up to 16 samples; 1.50 times the "
-                      "time of standard\"");
+    assert_says(text,
+                "set multiplot title \"Take robust: standard is wrong where you can see it.\"");
+    assert_says(text, "set xlabel \"milliseconds a picture");
+    assert_says(text, "set ylabel \"how far off, in steps of 256\"");
+    assert_says(text, "$entry0_0 << END\n1 1 0.99 1.01 4 0\n4 4 3.96 4.04 2 0\n");
+    assert_says(text, "$entry1_0 << END\n1 1.5 1.485 1.515 4 1\n");
+    assert_says(text, "title 'standard: wrong where you can see it'");
+    assert_says(text, "title 'robust: right; 50 % more time than standard'");
     assert_null(strstr(text, "closed mesh"));
+    assert_null(strstr(text, "RMS"));
     free(text);
-    study.no_edges = NULL;
-    study.levels[0].edge_rays = study.levels[1].edge_rays = 1000;
-    study.levels[0].leaks = 20;
-    study.levels[0].double_hits = 5;
-    study.reference_is_scalar = false;
-    study.reference_level = RT_ACCURACY_ROBUST;
-    text = script_of(&study);
+    study.edges = RT_EDGES_TRACED;
+    study.entries[0].edge_rays = study.entries[1].edge_rays = 1000;
+    study.entries[0].leaks = 20;
+    study.entries[0].double_hits = 5;
+    PRINTED(text, rt_study_plot_script(&study, "a.svg", "a.png", out));
     assert_says(text, "closed mesh");
-    assert_says(text, "$standard_2 << END\n1 1 0.99 1.01 25000 0\nEND\n");
-    assert_says(text, "$robust_2 << END\n1 1.5 1.485 1.515 1000 0\nEND\n");
-    assert_says(text, "$robust_1 << END\n1 1.5 1.485 1.515 nan 0\n");
+    assert_says(text, "$entry0_1 << END\n1 1 0.99 1.01 25000 0\nEND\n");
+    assert_says(text, "$entry1_1 << END\n1 1.5 1.485 1.515 1000 0\nEND\n");
+    assert_says(text, "set ytics add (\"0\" 1000)");
     free(text);
+    rt_study_clear(&study);
+}
+
+/* One pixel of each class of differences, in a row that is made larger and in one that is made
+ * smaller, where the largest of a patch counts. */
+static void the_strip(void **state)
+{
+    (void)state;
+    static const int steps[RT_HEAT_COUNT] = {0, 1, 3, 4, 15, 16, 63, 255};
+    for (int large = 0; large < 2; ++large) {
+        const int grow = large ? 1 : 20, shrink = large ? 2 : 1, width = large ? 1280 : 8;
+        rt_status status = RT_STATUS_INIT;
+        rt_study study;
+        rt_study_strip strip = {0};
+        rt_image a, b, back;
+        test_make_up_study(&study, 1);
+        assert_good(rt_image_init(&a, width, 2, false, &status), &status);
+        assert_good(rt_image_init(&b, width, 2, false, &status), &status);
+        for (int i = 0; i < RT_HEAT_COUNT; ++i)
+            b.rgb[3 * (i * shrink) + i % 3] = (float)steps[i] / 255.0f;
+        assert_good(rt_study_strip_keep(&strip, &study, 0, &a, &status), &status);
+        assert_good(rt_study_strip_keep(&strip, &study, 1, &b, &status), &status);
+        rt_study_strip_draw(&strip, &study, &back, &status);
+        assert_int_equal(back.width, 3 * (large ? 640 : 160) + 2 * RT_STRIP_GAP);
+        assert_int_equal(back.height, large ? 1 : 40);
+        for (int i = 0; i < RT_HEAT_COUNT; ++i) {
+            const int x = 2 * ((large ? 640 : 160) + RT_STRIP_GAP) + i * grow;
+            for (int c = 0; c < 3; ++c)
+                assert_int_equal(rt_image_step(back.rgb[3 * x + c]), rt_heats[i].color[c]);
+        }
+        assert_int_equal(rt_image_step(back.rgb[3 * (large ? 640 : 160)]), 255);
+        rt_study_strip_clear(&strip);
+        rt_image_clear(&a);
+        rt_image_clear(&b);
+        rt_image_clear(&back);
+        rt_study_clear(&study);
+    }
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_a_level_buys),
-        cmocka_unit_test(what_a_level_costs),
-        cmocka_unit_test(what_is_dominated),
-        cmocka_unit_test(what_goes_wrong),
         cmocka_unit_test(csv),
-        cmocka_unit_test(json),
+        cmocka_unit_test(json_there_and_back),
+        cmocka_unit_test(json_that_is_damaged),
         cmocka_unit_test(md),
+        cmocka_unit_test(html),
+        cmocka_unit_test(base64),
         cmocka_unit_test(the_plot),
+        cmocka_unit_test(the_strip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
