@@ -249,7 +249,7 @@ $(BUILD)/tests/bench/nothing: $(BUILD)/tests/bench/nothing.o $(LIBRARY) $(FLAGS)
 # ---- Debian's packages ----
 
 PACKAGES := pocl-opencl-icd ocl-icd-opencl-dev opencl-headers libstb-dev libjansson-dev \
-            libdeflate-dev libopenexr-dev libcmocka-dev libgmp-dev pkg-config
+            libdeflate-dev libopenexr-dev libcmocka-dev libgmp-dev pkg-config gnuplot-nox
 PACKAGES_LINT := clang-format clang-tidy cppcheck
 PACKAGES_CLANG := clang
 PACKAGES_PROCESSORS := qemu-user

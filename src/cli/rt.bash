@@ -30,16 +30,17 @@ _rt()
         words="1 4 16 64"
         done=,
         ;;
-    --hits | --stats | --study) return ;;
+    --hits | --plot | --stats | --study) return ;;
     --error | --seconds | --size | --study-repeats | --tile)
         compopt +o default +o bashdefault
         return
         ;;
     *)
         [[ $current == -* ]] || return
-        words="--accel= --accuracy= --device= --effects= --error= --explain --format= --grammar --help --hits=
-               --lanes= --list-devices --no-cost --progress= --quiet --seconds= --size= --stats= --study=
-               --study-levels= --study-repeats= --study-samples= --tile= --verify --version"
+        words="--accel= --accuracy= --device= --effects= --error= --explain --format= --grammar --help
+               --hits= --lanes= --list-devices --no-cost --plot= --progress= --quiet --seconds= --size=
+               --stats= --study= --study-levels= --study-repeats= --study-samples= --tile= --verify
+               --version"
         ;;
     esac
     # In a list only what follows the last comma is completed.

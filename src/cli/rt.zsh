@@ -23,6 +23,7 @@ _arguments -s -S \
     '--lanes=[rays in a vector when tracing]:rays:(1 4 8 16)' \
     '(- *)--list-devices[list the OpenCL devices]' \
     '--no-cost[explain without measuring]' \
+    '--plot=[make the report of a study anew]:figures:_files -g "*.json"' \
     '--progress=[tell how far a long render is]:when:(auto always never)' \
     '(-q --quiet)'{-q,--quiet}'[print errors only]' \
     '--seconds=[add samples until so long has passed]:seconds: ' \

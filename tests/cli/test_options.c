@@ -95,6 +95,12 @@ static void lines_of_a_study(void **state)
     assert_int_equal(o.plan.samples[0], 1);
     assert_int_equal(o.plan.samples[1], 16);
     assert_int_equal(o.plan.repeats, 3);
+    assert_int_equal(read_line("--study r --device 0,cpu s.txt", &o, message, sizeof message),
+                     RT_OK);
+    assert_int_equal(read_line("--study r --device all s.txt", &o, message, sizeof message), RT_OK);
+    assert_int_equal(read_line("-q --plot some/r.json", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_PLOT);
+    assert_string_equal(o.plot, "some/r.json");
 }
 
 static void lines_about_effects(void **state)
@@ -195,8 +201,13 @@ static const char *const wrong_lines[][2] = {
     {"--study r --stats - s.txt", "--study does not go with"},
     {"--study r --accuracy fast s.txt", "--study takes --study-levels"},
     {"--study r --device scalar s.txt", "--study holds a device"},
-    {"--study r --device 0,cpu s.txt", "--study is of one device"},
-    {"--study r --device all s.txt", "--study is of one device"},
+    {"--study r --device 0,,cpu s.txt", "--device takes"},
+    {"--study r --device 0,scalar s.txt", "the scalar path renders alone"},
+    {"--plot r.txt", "found 'r.txt'; --plot takes the REPORT.json of a study"},
+    {"--plot .json", "--plot takes"},
+    {"--plot r.json s.txt", "--plot reads what a study has found, and renders nothing"},
+    {"--plot r.json --study r", "--plot reads what a study has found"},
+    {"--plot r.json --verify", "--plot reads what a study has found"},
     {"--study-levels fast s.txt o.png", "go with --study"},
     {"--study r --study-levels fast,exact s.txt",
      "found 'fast,exact'; --study-levels takes fast, standard, robust or double"},
