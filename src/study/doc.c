@@ -95,12 +95,13 @@ void rt_doc_list_end(rt_doc *doc)
 
 void rt_doc_table_begin(rt_doc *doc, const char *const *columns)
 {
-    static const char *const marks[4] = {"<th>", "</th>", " ", " |"};
+    static const char *const word[4] = {"<th>", "</th>", " ", " |"};
+    static const char *const number[4] = {"<th class=\"n\">", "</th>", " ", " |"};
     doc->columns = columns;
     doc->column = 0;
     fputs(doc->is_html ? "<table>\n<tr>" : "|", doc->out);
     for (const char *const *c = columns; *c; ++c)
-        between(doc, marks, "%s", **c == '>' ? *c + 1 : *c);
+        between(doc, **c == '>' ? number : word, "%s", **c == '>' ? *c + 1 : *c);
     fputs(doc->is_html ? "</tr>\n" : "\n|", doc->out);
     for (const char *const *c = columns; *c && !doc->is_html; ++c)
         fputs(**c == '>' ? "---:|" : "---|", doc->out);

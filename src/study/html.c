@@ -23,7 +23,7 @@ static const char style[] =
     "table{border-collapse:collapse;margin:.6em 0;font-size:.95em}\n"
     "td,th{padding:.2em .7em .2em 0;text-align:left;vertical-align:top;"
     "border-bottom:1px solid #ddd}\n"
-    "th{font-weight:600;color:#444}\ntd.n{text-align:right;white-space:nowrap}\n"
+    "th{font-weight:600;color:#444}\n.n{text-align:right}td.n{white-space:nowrap}\n"
     ".rest table{font-size:.8em}\n";
 
 void rt_print_base64(const char *bytes, size_t length, FILE *out)

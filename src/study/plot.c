@@ -39,7 +39,7 @@ static const struct {
     const char *title, *axis;
 } captions[PANEL_COUNT] = {
     [PANEL_SEEN] = {"How good a picture is for its time", "how far off, in steps of 256"},
-    [PANEL_EDGES] = {"Rays at the edges of a closed mesh", "rays in a million that go wrong"}};
+    [PANEL_EDGES] = {"The edges of a closed mesh", "rays in a million that go wrong"}};
 
 static double per_million(const rt_study_entry *e)
 {
@@ -158,8 +158,9 @@ static void print_panel(const rt_study *study, const panel *p, double left, doub
     fprintf(out,
             "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
             "set title \"%s\" font ',13'\nset ylabel \"%s\" offset 0.3,0\n"
-            "set yrange [%.9g:%.9g]\nset ytics nomirror format \"%%g\"\n",
-            left, right, captions[p->kind].title, captions[p->kind].axis, p->low, p->high);
+            "set yrange [%.9g:%.9g]\nset ytics nomirror format \"%s\"\n",
+            left, right, captions[p->kind].title, captions[p->kind].axis, p->low, p->high,
+            p->kind == PANEL_EDGES ? "%.0f" : "%g");
     if (p->floor > 0.0)
         fprintf(out, "set ytics add (\"0\" %.9g)\n", p->floor);
     if (p->kind == PANEL_SEEN)
@@ -202,12 +203,23 @@ static void print_title(const rt_study *study, FILE *out)
     free(text);
 }
 
-static bool is_wall(const rt_study *study)
+/* The page from top to bottom, at the terminals' common scale. */
+#define PAGE_WIDTH 1000
+#define TITLE_HEIGHT 105
+#define PANEL_HEIGHT 310
+#define AXIS_HEIGHT 65
+#define NOTE_HEIGHT 30
+#define KEY_LINE_HEIGHT 22
+#define FOOT_HEIGHT 35
+
+static int key_height(const rt_study *study)
 {
-    for (size_t d = 0; d < study->device_count; ++d)
-        if (!study->devices[d].kernel_is_wall)
-            return false;
-    return true;
+    return KEY_LINE_HEIGHT * (int)study->entry_count + FOOT_HEIGHT;
+}
+
+static int page_height(const rt_study *study)
+{
+    return TITLE_HEIGHT + PANEL_HEIGHT + AXIS_HEIGHT + NOTE_HEIGHT + key_height(study);
 }
 
 static void print_page(const rt_study *study, const panel *panels, size_t count, FILE *out)
@@ -215,25 +227,26 @@ static void print_page(const rt_study *study, const panel *panels, size_t count,
     /* A panel of one point a level needs less room than one with curves. */
     static const double edges[2][PANEL_COUNT][2] = {{{0.08, 0.97}, {0, 0}},
                                                     {{0.08, 0.62}, {0.74, 0.97}}};
-    const double key = 0.06 + 0.035 * (double)study->entry_count;
+    const double height = page_height(study), key = key_height(study);
     fputs("set multiplot title ", out);
     print_title(study, out);
     fprintf(
         out,
         " noenhanced font ',16' offset 0,-0.3\n"
-        "set tmargin at screen 0.82\nset bmargin at screen %.3f\n"
+        "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
         "set logscale xy\n"
         "set border 3 lc rgb '#404040'\n"
         "set grid lt 1 lc rgb '#DDDDDD' lw 1\n"
         "set xtics nomirror out rotate by 0 format \"%%g\"\n"
         "set offsets graph 0.08, graph 0.08, 0, 0\n"
-        "set key at screen 0.07, screen %.3f left top Left reverse samplen 2 spacing 1.15 "
+        "set key at screen 0.07, screen %.4f left top Left reverse samplen 4 spacing 1.15 "
         "maxcols 1 noenhanced\n"
-        "set xlabel \"milliseconds a picture%s\"\n"
+        "set xlabel \"milliseconds a picture\"\n"
         "set label 9 \"Further down is better, further left is faster. Numbers at points: "
         "samples a pixel. Pale: another point is as good in less time.\" at screen 0.07, screen "
-        "%.3f textcolor rgb '#404040' font ',11'\nset label 8 ",
-        key + 0.17, key, is_wall(study) ? "" : " (the device's work alone)", key + 0.035);
+        "%.4f textcolor rgb '#404040' font ',11'\nset label 8 ",
+        1.0 - TITLE_HEIGHT / height, (key + NOTE_HEIGHT + AXIS_HEIGHT) / height, key / height,
+        (key + 0.5 * NOTE_HEIGHT) / height);
     print_quoted(study->scene, out);
     fputs(" at screen 0.97, screen 0.03 right noenhanced textcolor rgb '#707070' font ',10'\n",
           out);
@@ -253,22 +266,24 @@ void rt_study_plot_script(const rt_study *study, const char *svg, const char *pn
         panels[i] = make_panel(study, (enum panel_kind)i);
         print_data(study, &panels[i], out);
     }
-    fputs("set terminal svg size 1000,600 dynamic enhanced background '#FFFFFF' font 'Sans,12'\n"
-          "set output ",
-          out);
+    const int width = 3 * PAGE_WIDTH / 2, height = 3 * page_height(study) / 2;
+    fprintf(out,
+            "set terminal svg size %d,%d dynamic enhanced background '#FFFFFF' font 'Sans,12'\n"
+            "set output ",
+            PAGE_WIDTH, page_height(study));
     print_quoted(svg, out);
     fputc('\n', out);
     print_page(study, panels, count, out);
     /* The one terminal draws better letters, the other is part of every gnuplot. */
-    fputs(
-        "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n"
-        "set terminal pngcairo size 1500,900 enhanced font 'Sans,12' fontscale 1.35 linewidth 1.5 "
-        "pointscale 1.4\n"
-        "} else {\n"
-        "set terminal png size 1500,900 enhanced\n"
-        "}\n"
-        "set output ",
-        out);
+    fprintf(out,
+            "if (strstrt(GPVAL_TERMINALS, 'pngcairo') > 0) {\n"
+            "set terminal pngcairo size %d,%d enhanced font 'Sans,12' fontscale 1.35 linewidth 1.5 "
+            "pointscale 1.4\n"
+            "} else {\n"
+            "set terminal png size %d,%d enhanced\n"
+            "}\n"
+            "set output ",
+            width, height, width, height);
     print_quoted(png, out);
     fputc('\n', out);
     print_page(study, panels, count, out);

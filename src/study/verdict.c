@@ -72,6 +72,20 @@ static void say_headline_in_doubt(const rt_study *study, enum rt_doubt doubt, FI
     fputc('.', out);
 }
 
+/* What the level to take costs, where it is not the one that times are held against. */
+static void say_cost_of_taken(const rt_study *study, size_t taken, FILE *out)
+{
+    if (study->entries[taken].level == study->base)
+        return;
+    if (rt_study_is_free(&rt_study_cell_at(study, last_of(study), taken)->ratio)) {
+        fprintf(out, " It takes no measurably longer than %s.", rt_accuracy_name(study->base));
+        return;
+    }
+    fputs(" It takes ", out);
+    rt_study_say_cost(study, taken, out);
+    fputc('.', out);
+}
+
 void rt_study_say_headline(const rt_study *study, FILE *out)
 {
     const int wrong = list_levels(study, true, NULL), right = list_levels(study, false, NULL);
@@ -94,6 +108,7 @@ void rt_study_say_headline(const rt_study *study, FILE *out)
                   "time",
                   out);
         fputc('.', out);
+        say_cost_of_taken(study, taken, out);
     }
 }
 
@@ -210,18 +225,21 @@ void rt_study_say_briefly(const rt_study *study, size_t entry_index, FILE *out)
 void rt_study_say_entry(const rt_study *study, size_t entry_index, FILE *out)
 {
     const rt_study_cell *cell = rt_study_cell_at(study, last_of(study), entry_index);
-    const size_t device = study->entries[entry_index].device;
+    const rt_study_entry *e = &study->entries[entry_index];
     char name[RT_STUDY_NAME_SIZE];
     fprintf(out, "%s: ", rt_study_entry_name(study, entry_index, name));
     rt_study_say_right(study, entry_index, out);
-    if (rt_study_doubt_of(study, device).kind != RT_DOUBT_NONE) {
+    if (e->leaks + e->double_hits > 0)
+        fprintf(out, "; of a million rays at the edges of a closed mesh %.0f go wrong",
+                1e6 * (double)(e->leaks + e->double_hits) / (double)e->edge_rays);
+    if (rt_study_doubt_of(study, e->device).kind != RT_DOUBT_NONE) {
         fputs(". What it costs: cannot tell.", out);
         return;
     }
     fprintf(out, ". At %d sample%s a pixel a picture takes %.3g ms",
             study->plan.samples[last_of(study)], study->plan.samples[last_of(study)] > 1 ? "s" : "",
             1e3 * cell->kernel.median);
-    if (study->entries[entry_index].level != study->base) {
+    if (e->level != study->base) {
         fputs(", ", out);
         rt_study_say_cost(study, entry_index, out);
         fprintf(out, " (quartiles of the ratio: %.2f to %.2f)", cell->ratio.low, cell->ratio.high);

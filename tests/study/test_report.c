@@ -283,7 +283,8 @@ static void the_plot(void **state)
     assert_says(text, "\nset output 'a.svg'\n");
     assert_says(text, "\nset output 'it''s.png'\n");
     assert_says(text,
-                "set multiplot title \"Take robust: standard is wrong where you can see it.\"");
+                "set multiplot title \"Take robust: standard is wrong where you can see it. It "
+                "takes 50 % more time than\\nstandard.\"");
     assert_says(text, "set xlabel \"milliseconds a picture");
     assert_says(text, "set ylabel \"how far off, in steps of 256\"");
     assert_says(text, "$entry0_0 << END\n1 1 0.99 1.01 4 0\n4 4 3.96 4.04 2 0\n");
