@@ -8,7 +8,7 @@ double rt_srgb_of_linear(double c)
     return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1.0 / 2.4) - 0.055;
 }
 
-static double linear_of_srgb(double s)
+double rt_linear_of_srgb(double s)
 {
     return s <= 12.92 * 0.0031308 ? s / 12.92 : pow((s + 0.055) / 1.055, 2.4);
 }
@@ -46,7 +46,7 @@ static void make_curve(curve *s)
     s->begins[256] = INFINITY;
     for (int k = 1; k < 256; ++k) {
         /* The inverse is rounded: what the curve itself says decides between neighbours. */
-        float c = (float)linear_of_srgb((k - 0.5) / 255.0);
+        float c = (float)rt_linear_of_srgb((k - 0.5) / 255.0);
         while (srgb_step(c) < k)
             c = nextafterf(c, 1.0f);
         while (srgb_step(nextafterf(c, 0.0f)) >= k)

@@ -18,6 +18,8 @@ typedef struct rt_encoding {
 /* sRGB's curve for a component from 0 to 1: 12.92 c up to 0.0031308, then 1.055 c^(1/2.4) - 0.055.
  */
 double rt_srgb_of_linear(double component);
+/* Its inverse. */
+double rt_linear_of_srgb(double component);
 
 /* All components, in their order, as steps of 8 or 16 bits: floor(most f(c 2^exposure) + 0.5) with
  * f the curve, most 255 or 65535, after clamping to 0..1; 0 for NaN. From malloc; NULL after an

@@ -106,16 +106,18 @@ static void draw_pixel(const rt_study_strip *strip, const rt_study *study, const
     const uint8_t *a = strip->pictures[study->shown[0]], *b = strip->pictures[study->shown[1]];
     const int which = x / (s->width + RT_STRIP_GAP), column = x % (s->width + RT_STRIP_GAP);
     const patch p = patch_of(strip, s, column < s->width ? column : 0, y);
+    const bool is_gap = column >= s->width;
+    if (is_gap || which == 2) {
+        /* Colours of the page, which are sRGB's. */
+        const uint8_t *color = is_gap ? white : heat_of(strip, a, b, &p);
+        for (int c = 0; c < 3; ++c)
+            rgb[c] = (float)rt_linear_of_srgb((double)color[c] / 255.0);
+        return;
+    }
     uint8_t steps[3];
-    const uint8_t *color = steps;
-    if (column >= s->width)
-        color = white;
-    else if (which == 2)
-        color = heat_of(strip, a, b, &p);
-    else
-        mean_of(strip, which ? b : a, &p, steps);
+    mean_of(strip, which ? b : a, &p, steps);
     for (int c = 0; c < 3; ++c)
-        rgb[c] = (float)color[c] / 255.0f;
+        rgb[c] = (float)steps[c] / 255.0f;
 }
 
 double rt_study_strip_gap(const rt_study *study)
@@ -141,9 +143,10 @@ bool rt_study_strip_write(const rt_study_strip *strip, const rt_study *study, rt
                           rt_status *status)
 {
     rt_image image;
+    const rt_encoding encoding = {RT_TRANSFER_SRGB, 0.0f};
     if (!rt_study_strip_draw(strip, study, &image, status))
         return false;
-    const bool good = rt_image_write(&image, rt_image_format_of("strip.png"), output, status);
+    const bool good = rt_image_write(&image, rt_image_format_of("strip.png"), &encoding, output, status);
     rt_image_clear(&image);
     return good;
 }
