@@ -68,7 +68,8 @@ typedef struct rt_material {
     float checker_r, checker_g, checker_b, cell;
     int texture;
     int nearest; /* 1: the texel that holds (u, v), 0: bilinear */
-    int padding;
+    int clamp;   /* 1: on triangles the picture's border goes on beyond it, 0: it is repeated */
+    int padding_0, padding_1;
 } rt_material;
 
 /* A picture: width * height texels from texel `first` on, row by row from the top, 8 bits each of

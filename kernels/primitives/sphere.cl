@@ -190,12 +190,14 @@ INLINE void sphere_surface(const traced *w, int index, __global const rt_sphere_
     s->outside = side > 0.0f;
 }
 
-/* By longitude and latitude about the y axis. */
+/* By longitude, which goes round, and latitude, which ends at the poles, about the y axis. */
 INLINE void sphere_picture_point(const pictures *p, int index, number u, number v, const surface *s,
-                                 number *x, number *y)
+                                 picture_place *at)
 {
     const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
     const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);
-    *x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
-    *y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
+    at->x = fma(atan2(out.x, out.z), (number)0.15915494f, (number)0.5f);
+    at->y = fma(asin(pole), (number)0.31830989f, (number)0.5f);
+    at->repeats_x = 1;
+    at->repeats_y = 0;
 }

@@ -190,13 +190,13 @@ INLINE void triangle_surface(const traced *w, int index, __global const rt_trian
 }
 
 INLINE void triangle_picture_point(const pictures *p, int index, number u, number v,
-                                   const surface *s, number *x, number *y)
+                                   const surface *s, picture_place *at)
 {
     const int record = p->uvs_of[index];
     if (record < 0)
         return;
     __global const float *uv = p->uvs + (size_t)record * RT_UV_COMPONENTS;
     const number rest = (number)1.0f - u - v;
-    *x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
-    *y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
+    at->x = fma(v, (number)uv[4], fma(u, (number)uv[2], rest * (number)uv[0]));
+    at->y = fma(v, (number)uv[5], fma(u, (number)uv[3], rest * (number)uv[1]));
 }

@@ -125,10 +125,10 @@ INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
         tone->z = is_odd ? other.z : (number)1.0f;
     }
     if (ON(TEXTURE) && m->texture >= 0) {
-        number x, y;
+        picture_place at;
         vec3 picture;
-        picture_point(&w->pictures, &w->hits, i, index, s, &x, &y);
-        picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, x, y, &picture);
+        picture_point(&w->pictures, &w->hits, i, index, s, !m->clamp, &at);
+        picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, &at, &picture);
         *tone = MULTIPLY(*tone, picture);
     }
 }

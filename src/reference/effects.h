@@ -70,6 +70,7 @@ typedef struct surface {
     vec facing;        /* geometric: likewise */
     bool from_outside; /* whether that side is the primitive's outside */
     real u, v;         /* texture coordinates */
+    bool is_globe;     /* u goes round, v ends at poles, whatever the material says */
     vec foot;          /* on the primitive, clear of its edges: what next rays start above */
     real lift; /* how far above, so that no rounding brings the primitive back in their way */
 } surface;

@@ -157,6 +157,7 @@ surface NAME(surface_of_sphere)(const rt_scene *scene, const ray *r, size_t i, c
     }
     /* Longitude from the z axis, latitude from the south pole up. */
     s.u = ATAN2(outward.x, outward.z) / (2 * pi) + (real)0.5;
+    s.is_globe = true;
     s.v = ASIN(FMAX(-1, FMIN(outward.y, 1))) / pi + (real)0.5;
     return s;
 }

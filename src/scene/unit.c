@@ -8,7 +8,8 @@
  * 2^38 multiply to 2^117 at most, and differences of 2^-48 still have exact products. */
 #define EXPONENT_MIN (-10)
 #define EXPONENT_MAX 37
-/* What lies outside of the primitives and the eye may be far away: it ends here. */
+/* What lies outside of the primitives and the eye may be far away: it ends here. A length that is as
+ * good as none ends at the inverse, for what is there does not vanish. */
 #define EXPONENT_FAR 120
 
 static float largest_of(float a, float b, float c)
@@ -41,13 +42,15 @@ static void scale_far(float *x, float *y, float *z, int exponent)
     scale(x, y, z, exponent < room ? exponent : room);
 }
 
-/* A length, or what is per length, for which the largest float is as good as infinite. */
+/* A length, or what is per length. */
 static float scaled(float value, int exponent)
 {
-    return fminf(ldexpf(value, exponent), 0x1p120f);
+    const float least = value > 0.0f ? ldexpf(1.0f, -EXPONENT_FAR) : 0.0f;
+    return fmaxf(least, fminf(ldexpf(value, exponent), ldexpf(1.0f, EXPONENT_FAR)));
 }
 
-static void scale_all(rt_scene *scene, int exponent)
+/* All but the primitives, also by 1, so that nothing is too far away. */
+static void scale_surroundings(rt_scene *scene, int exponent)
 {
     rt_camera *c = &scene->camera;
     scale(&c->from.x, &c->from.y, &c->from.z, exponent);
@@ -69,8 +72,6 @@ static void scale_all(rt_scene *scene, int exponent)
         m->absorb_g = scaled(m->absorb_g, -exponent);
         m->absorb_b = scaled(m->absorb_b, -exponent);
     }
-    for (int kind = 0; kind < RT_KIND_COUNT; ++kind)
-        rt_primitives_scale(&scene->kinds[kind], (enum rt_kind)kind, exponent);
 }
 
 void rt_scene_choose_unit(rt_scene *scene)
@@ -80,8 +81,8 @@ void rt_scene_choose_unit(rt_scene *scene)
     const int by = exponent > EXPONENT_MAX   ? EXPONENT_MAX - exponent
                    : exponent < EXPONENT_MIN ? -exponent
                                              : 0;
-    if (by == 0)
-        return;
-    scale_all(scene, by);
+    scale_surroundings(scene, by);
+    for (int kind = 0; kind < RT_KIND_COUNT && by != 0; ++kind)
+        rt_primitives_scale(&scene->kinds[kind], (enum rt_kind)kind, by);
     scene->unit_exponent += by;
 }

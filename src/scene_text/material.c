@@ -22,7 +22,8 @@ enum field {
     CHECKER,
     CELL,
     TEXTURE,
-    FILTER
+    FILTER,
+    WRAP
 };
 
 static int compare_names(const void *a, const void *b)
@@ -129,11 +130,14 @@ static bool read_checker(const rt_value *v, rt_source *src, const rt_line *l, rt
 
 static bool read_texture(rt_parser *p, rt_source *src, const rt_line *l, rt_material *m)
 {
-    const rt_value *texture = &l->values[TEXTURE], *filter = &l->values[FILTER];
-    if (filter->given && !texture->given)
-        return RT_FAIL_AT(src, l->start, "%s",
-                          "'filter' of 'material' is that of a texture; give 'texture' too");
+    const rt_value *texture = &l->values[TEXTURE];
+    const rt_value *filter = &l->values[FILTER], *wrap = &l->values[WRAP];
+    if ((filter->given || wrap->given) && !texture->given)
+        return RT_FAIL_AT(src, l->start,
+                          "'%s' of 'material' is that of a texture; give 'texture' too",
+                          filter->given ? "filter" : "wrap");
     m->nearest = filter->given && filter->choice == 0;
+    m->clamp = wrap->given && wrap->choice == 1;
     if (!texture->given)
         return true;
     const rt_word *word = &texture->word;

@@ -89,7 +89,8 @@ static void say_material(text *t, test_random *random, int number, int asked)
     if (asked & CHECKER && number != 1)
         say(t, " checker 0.1 0.5 0.9 cell %.6g", t->size * within(random, 0.2, 0.9));
     if (asked & TEXTURE && number != 2)
-        say(t, " texture \"texture.bmp\" filter %s", asked & NEAREST ? "nearest" : "bilinear");
+        say(t, " texture \"texture.bmp\" filter %s wrap %s",
+            asked & NEAREST ? "nearest" : "bilinear", number % 2 ? "clamp" : "repeat");
     say(t, "\n");
 }
 
@@ -353,6 +354,7 @@ static void a_wrong_kernel_is_noticed(void **state)
         {CHECKER, MUTANT_CELLS_AT_BORDER},
         {TEXTURE, MUTANT_PICTURE_UPSIDE_DOWN},
         {TEXTURE, MUTANT_TEXEL_HALF_OFF},
+        {TEXTURE, MUTANT_NEVER_CLAMPED},
         {FOG, MUTANT_FOG_WITHOUT_WAY},
         {GRADIENT, MUTANT_GRADIENT_STEEP},
     };

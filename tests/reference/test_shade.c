@@ -316,6 +316,13 @@ static void pictures_stand_upright_and_repeat(void **state)
     assert_color(picture_at(&m, false, 1 / 3.0, 0.5), 0.5, 0.5, 0.25, 1e-12);
     assert_color(picture_at(&m, false, 0, 0.75), 0.5, 0, 0.5, 1e-12);
     assert_color(picture_at(&m, false, 0.5, 0), 0.5, 1, 0.5, 1e-12);
+    /* Its border goes on. */
+    m.clamp = 1;
+    assert_color(picture_at(&m, false, 0, 0.75), 1, 0, 0, 1e-12);
+    assert_color(picture_at(&m, false, 7, 1), 0, 0, 1, 1e-12);
+    assert_color(picture_at(&m, false, 0.5, -7), 1, 1, 1, 1e-12);
+    assert_color(picture_at(&m, true, -1, 2), 1, 0, 0, 0);
+    assert_color(picture_at(&m, true, 1, 1), 0, 0, 1, 0);
 }
 
 /* On a sphere u runs with the longitude from -z by -x ... to z in the middle, v from pole to pole.
