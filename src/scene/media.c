@@ -92,7 +92,6 @@ static void nest(rt_media *media, const rt_scene *scene, const double *windings,
         if (media->of[material] && windings[material] > 0.5)
             look_at_triangle(w, &scene->triangles[i], material);
     }
-    int32_t inside_out[RT_NESTING_MOST];
     for (size_t m = 0; m < scene->material_count; ++m) {
         double left = media->of[m] ? windings[m] : 0.0;
         for (int i = 0; i < w->count; ++i)
@@ -101,9 +100,12 @@ static void nest(rt_media *media, const rt_scene *scene, const double *windings,
     }
     for (int i = 0; i < w->count && media->eye_count < media->nesting; ++i)
         if (w->nearest[i].material >= 0)
-            inside_out[media->eye_count++] = media->of[w->nearest[i].material];
-    for (int i = 0; i < media->eye_count; ++i)
-        media->eye[i] = inside_out[media->eye_count - 1 - i];
+            media->eye[media->eye_count++] = media->of[w->nearest[i].material];
+    for (int i = 0, k = media->eye_count - 1; i < k; ++i, --k) {
+        const int32_t nearer = media->eye[i];
+        media->eye[i] = media->eye[k];
+        media->eye[k] = nearer;
+    }
 }
 
 bool rt_media_find(rt_media *media, const rt_scene *scene, rt_status *status)

@@ -8,8 +8,8 @@
  * 2^38 multiply to 2^117 at most, and differences of 2^-48 still have exact products. */
 #define EXPONENT_MIN (-10)
 #define EXPONENT_MAX 37
-/* What lies outside of the primitives and the eye may be far away: it ends here. A length that is as
- * good as none ends at the inverse, for what is there does not vanish. */
+/* What lies outside of the primitives and the eye may be far away: it ends here. A length that is
+ * as good as none ends at the inverse, for what is there does not vanish. */
 #define EXPONENT_FAR 120
 
 static float largest_of(float a, float b, float c)

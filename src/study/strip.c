@@ -146,7 +146,8 @@ bool rt_study_strip_write(const rt_study_strip *strip, const rt_study *study, rt
     const rt_encoding encoding = {RT_TRANSFER_SRGB, 0.0f};
     if (!rt_study_strip_draw(strip, study, &image, status))
         return false;
-    const bool good = rt_image_write(&image, rt_image_format_of("strip.png"), &encoding, output, status);
+    const bool good =
+        rt_image_write(&image, rt_image_format_of("strip.png"), &encoding, output, status);
     rt_image_clear(&image);
     return good;
 }
