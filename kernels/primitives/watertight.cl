@@ -50,7 +50,7 @@ INLINE void permute_by_lane(const rays *r, real3 *a, real3 *b, real3 *c)
  * sheared, `t` how far along the ray; each corner's weight, which is the area opposite to it. */
 typedef struct corners {
     real3 a, b, c;
-    real ax, ay, at, bx, by, bt, cx, cy, ct;
+    real ax, ay, bx, by, cx, cy;
     real wa, wb, wc;
 } corners;
 
@@ -67,28 +67,38 @@ INLINE mask owns(const corners *s, mask is_positive)
 
 /* What rounding can make of t at most, to first order (the idea of pbrt 4th ed. 6.8, but with the
  * weights of the hit, so that a large triangle near the origin is not lost): the error of each
- * corner along the ray, and that across it times the triangle's slope. */
-INLINE real error_of_t(const rays *r, const corners *s, real det)
+ * corner along the ray, and that across it times the triangle's slope. From the corners mirrored in
+ * the origin, which changes signs alone: taken anew, or the compiler keeps those of the test in
+ * memory for what is nearly never asked. */
+INLINE real error_of_t(const rays *r, real3 a, real3 b, real3 c, real wa, real wb, real wc,
+                       real det)
 {
-    const real wa = fabs(s->wa), wb = fabs(s->wb), wc = fabs(s->wc);
+    a = SUB(real3, r->from, a);
+    b = SUB(real3, r->from, b);
+    c = SUB(real3, r->from, c);
+    wa = fabs(wa), wb = fabs(wb), wc = fabs(wc);
+    const real at = a.z * r->onward.z, bt = b.z * r->onward.z, ct = c.z * r->onward.z;
     const real sx = fabs(r->sx), sy = fabs(r->sy);
-    const real along = fma(wa, fabs(s->at), fma(wb, fabs(s->bt), wc * fabs(s->ct)));
+    const real along = fma(wa, fabs(at), fma(wb, fabs(bt), wc * fabs(ct)));
     const real aside_x =
-        fma(wa, fma(sx, fabs(s->a.z), fabs(s->a.x)),
-            fma(wb, fma(sx, fabs(s->b.z), fabs(s->b.x)), wc * fma(sx, fabs(s->c.z), fabs(s->c.x))));
+        fma(wa, fma(sx, fabs(a.z), fabs(a.x)),
+            fma(wb, fma(sx, fabs(b.z), fabs(b.x)), wc * fma(sx, fabs(c.z), fabs(c.x))));
     const real aside_y =
-        fma(wa, fma(sy, fabs(s->a.z), fabs(s->a.y)),
-            fma(wb, fma(sy, fabs(s->b.z), fabs(s->b.y)), wc * fma(sy, fabs(s->c.z), fabs(s->c.y))));
-    const real bx = s->bx - s->ax, by = s->by - s->ay, bt = s->bt - s->at;
-    const real cx = s->cx - s->ax, cy = s->cy - s->ay, ct = s->ct - s->at;
+        fma(wa, fma(sy, fabs(a.z), fabs(a.y)),
+            fma(wb, fma(sy, fabs(b.z), fabs(b.y)), wc * fma(sy, fabs(c.z), fabs(c.y))));
+    const real ax = fma(-r->sx, a.z, a.x), ay = fma(-r->sy, a.z, a.y);
+    const real bx = fma(-r->sx, b.z, b.x) - ax, by = fma(-r->sy, b.z, b.y) - ay;
+    const real cx = fma(-r->sx, c.z, c.x) - ax, cy = fma(-r->sy, c.z, c.y) - ay;
+    const real bs = bt - at, cs = ct - at;
     const real part = DIVIDE((real)1.0f, det);
-    const real slope_x = fabs(fma(by, ct, -(bt * cy))) * part;
-    const real slope_y = fabs(fma(bt, cx, -(bx * ct))) * part;
+    const real slope_x = fabs(fma(by, cs, -(bs * cy))) * part;
+    const real slope_y = fabs(fma(bs, cx, -(bx * cs))) * part;
     const real sum = fma(slope_x, aside_x, fma(slope_y, aside_y, along));
     return (real)(8 * RT_HALF_ULP) * (sum * part);
 }
 
-/* Corners in the rays' order of axes. Returns whether any lane is on. */
+/* Corners in the rays' order of axes. Returns whether any lane is on. What is rarely asked takes a
+ * lane out by a determinant of 0: compilers do worse with masks that branches change. */
 INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask active, meeting *m)
 {
     corners s;
@@ -113,26 +123,29 @@ INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask a
     const real signed_det = s.wa + s.wb + s.wc;
     const mask sign = AS_MASK(signed_det) & (mask)SIGN_BIT;
     m->det = AS_REAL(AS_MASK(signed_det) ^ sign);
-    m->on = m->on & MASK(m->det > (real)0.0f);
 #if RT_CULL
     /* The sign of Moller and Trumbore's determinant. */
     const real facing = AS_REAL(AS_MASK(signed_det) ^ (AS_MASK(r->onward.z) & (mask)SIGN_BIT));
     m->on = m->on & MASK(facing * (real)RT_CULL > (real)0.0f);
 #endif
     if (ANY(m->on & (MASK(least == (real)0.0f) | MASK(most == (real)0.0f))))
-        m->on = m->on & owns(&s, is_positive);
-    s.at = s.a.z * r->onward.z;
-    s.bt = s.b.z * r->onward.z;
-    s.ct = s.c.z * r->onward.z;
-    const real sum = fma(s.wa, s.at, fma(s.wb, s.bt, s.wc * s.ct));
+        m->det = SELECT((real)0.0f, m->det, owns(&s, is_positive));
+    const real at = s.a.z * r->onward.z;
+    const real bt = s.b.z * r->onward.z;
+    const real ct = s.c.z * r->onward.z;
+    const real sum = fma(s.wa, at, fma(s.wb, bt, s.wc * ct));
     m->t = DIVIDE(AS_REAL(AS_MASK(sum) ^ sign), m->det);
     m->u = AS_REAL(AS_MASK(s.wb) ^ sign);
     m->v = AS_REAL(AS_MASK(s.wc) ^ sign);
     /* t is a mean of the corners': where all are ahead, so is the hit, and no rounding changes
-     * that. */
-    const mask straddles = MASK(LESSEST(s.at, s.bt, s.ct) <= (real)0.0f);
-    if (ANY(m->on & straddles))
-        m->on = m->on & (~straddles | MASK(m->t > error_of_t(r, &s, m->det)));
+     * that. Where t is not even positive, its error need not be known. */
+    const mask straddles = MASK(LESSEST(at, bt, ct) <= (real)0.0f);
+    const mask behind = straddles & MASK(m->t <= (real)0.0f);
+    m->det = SELECT(m->det, (real)0.0f, behind);
+    if (ANY(m->on & MASK(m->det > (real)0.0f) & straddles))
+        m->det = SELECT(m->det, (real)0.0f,
+                        straddles & ~MASK(m->t > error_of_t(r, a, b, c, s.wa, s.wb, s.wc, m->det)));
+    m->on = m->on & MASK(m->det > (real)0.0f);
     keep_in_box(r->from, r->onward, r->tmin, LEAST_CORNER(a, b, c), GREATEST_CORNER(a, b, c), m);
     return 1;
 }
