@@ -129,8 +129,8 @@ INLINE int groups_in_box(const packet *p, __global const rt_node *n, int c)
         const real3 lo = SPLAT3(n->lo_x[c], n->lo_y[c], n->lo_z[c]);
         const real3 hi = SPLAT3(n->hi_x[c], n->hi_y[c], n->hi_z[c]);
         box_interval(r->origin, r->inverse, lo, hi, &enter, &leave);
-        const mask on = alive(r, &p->h[g]) & MASK(enter <= leave) & MASK(leave >= r->tmin) &
-                        MASK(enter <= p->h[g].t);
+        /* That the ray is alive, its part in the box not empty, and in time: all in one. */
+        const mask on = MASK(GREATER(enter, r->tmin) <= LESSER(leave, p->h[g].t));
         groups |= ANY(on) ? 1 << g : 0;
     }
     return groups;
