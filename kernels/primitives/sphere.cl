@@ -30,28 +30,12 @@ INLINE void meet_at_root(const rays *r, real3 center, real radius, real b, real 
     keep_in_sphere_box(r, center, radius, m);
 }
 
-#if RT_ACCURACY < RT_ROBUST
-/* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
- * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
- * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
-INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
-{
-    const real3 f = SUB(real3, r->origin, center);
-    const real b = -DOT(f, r->direction);
-    const real approach = b * r->inv_dd;
-    const real3 l = {fma(approach, r->direction.x, f.x), fma(approach, r->direction.y, f.y),
-                     fma(approach, r->direction.z, f.z)};
-    const real discriminant = fma(radius, radius, -DOT(l, l));
-    m->on = active & MASK(discriminant >= (real)0.0f);
-    if (!ANY(m->on))
-        return 0;
-    const real root = ROOT(r->dd * discriminant);
-    meet_at_root(r, center, radius, b, fma(-radius, radius, DOT(f, f)), root, m);
-    return 1;
-}
-#else
+#if RT_ACCURACY >= RT_ROBUST
 /* The sphere test of the levels robust and double: hit or miss as exact arithmetic decides it, but
- * for rays within 8 ulp of touching, whether the sphere is small and far or large and near.
+ * for rays within 8 ulp of touching, whether the sphere is small and far or large and near. Most
+ * rays need no more than the plain test: where it tells by more than its rounding whether there is
+ * a hit, from far enough outside, its numbers are good to a few ulp. For the others (rays that all
+ * but touch, that start near the surface or inside) the sums are exact:
  *
  * The difference origin - centre is exact, as a sum of two numbers (Knuth's two-sum); the distance
  * of ray and centre is a cross product whose components have a relative error of a few half ulps
@@ -86,33 +70,86 @@ INLINE real compensated_dot(real3 f, real3 g, real rest, real small)
     return s3 + (((e1 + e2) + (e3 + products)) + small);
 }
 
-/* Nearest root of |o + t d - c| = r beyond tmin. Returns whether any lane is on. */
-INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
+/* Puts the exact b, c and discriminant in the place of the plain ones in the lanes of `rest`. From
+ * the origin to the centre, as the plain test does not: what both compute alike the compiler would
+ * keep in memory. */
+INLINE void make_exact(const rays *r, real3 center, real radius, const mask rest, real *b, real *c,
+                       real *discriminant)
 {
     const real3 d = r->direction;
     real3 f, g;
-    TWO_SUM(f.x, g.x, r->origin.x, -center.x);
-    TWO_SUM(f.y, g.y, r->origin.y, -center.y);
-    TWO_SUM(f.z, g.z, r->origin.z, -center.z);
+    TWO_SUM(f.x, g.x, center.x, -r->origin.x);
+    TWO_SUM(f.y, g.y, center.y, -r->origin.y);
+    TWO_SUM(f.z, g.z, center.z, -r->origin.z);
     const real3 cross = {difference_of_products(f.y, d.z, f.z, d.y) + fma(g.y, d.z, -(g.z * d.y)),
                          difference_of_products(f.z, d.x, f.x, d.z) + fma(g.z, d.x, -(g.x * d.z)),
                          difference_of_products(f.x, d.y, f.y, d.x) + fma(g.x, d.y, -(g.y * d.x))};
     const real rr = radius * radius;
-    const real discriminant = fma(rr, r->dd, -DOT(cross, cross));
-    m->on = active & MASK(discriminant >= (real)0.0f);
+    const real by_distance = fma(rr, r->dd, -DOT(cross, cross));
+    const real exact_b = compensated_dot(f, d, (real)0.0f, DOT(g, d));
+    const real exact_c =
+        compensated_dot(f, f, -rr, fma((real)2.0f, DOT(f, g), -fma(radius, radius, -rr)));
+    /* Near the surface the roots' product is the better known; hit or miss is by the distance. */
+    const real by_product = difference_of_products(exact_b, exact_b, r->dd, exact_c);
+    const mask near_surface =
+        MASK(by_distance >= (real)0.0f) & MASK(fabs(exact_c) * (real)4.0f < rr);
+    const real exact = SELECT(by_distance, GREATER(by_product, (real)0.0f), near_surface);
+    *b = SELECT(*b, exact_b, rest);
+    *c = SELECT(*c, exact_c, rest);
+    *discriminant = SELECT(*discriminant, exact, rest);
+}
+
+/* What rounding can make of rr - ll, of which l is off by a half ulp of f and a few of its own: 7
+ * |f| r half ulps at most, and, since `approach` is off too, 50 squares of a half ulp of |f|. */
+#define GAP_BOUND (16 * RT_HALF_ULP)
+#define GAP_BOUND_FAR (128 * RT_HALF_ULP * RT_HALF_ULP)
+/* What it can make of ff - rr, as a part of ff. */
+#define OUTSIDE_BOUND (8 * RT_HALF_ULP)
+#endif
+
+/* Nearest root of |o + t d - c| = r beyond tmin. The discriminant comes from the ray's closest
+ * approach to the centre, not from b*b - a*c, which cancels for small or far spheres (Haines,
+ * Gunther and Akenine-Moller, Ray Tracing Gems ch. 7). Returns whether any lane is on. */
+INLINE int meet_spheres(const rays *r, real3 center, real radius, const mask active, meeting *m)
+{
+    const real3 f = SUB(real3, r->origin, center);
+    const real ff = DOT(f, f);
+    real b = -DOT(f, r->direction);
+    real c = fma(-radius, radius, ff);
+    const real approach = b * r->inv_dd;
+    const real3 l = {fma(approach, r->direction.x, f.x), fma(approach, r->direction.y, f.y),
+                     fma(approach, r->direction.z, f.z)};
+    const real gap = fma(radius, radius, -DOT(l, l));
+    real discriminant = r->dd * gap;
+#if RT_ACCURACY >= RT_ROBUST
+    /* Conditions as extremes of numbers: compilers do worse with many truths of lanes. */
+    const real rr = radius * radius;
+    const real far = (real)(GAP_BOUND_FAR * GAP_BOUND_FAR);
+    const real bound = fma(ff, far, rr * (real)(GAP_BOUND * GAP_BOUND));
+    const real doubt = fma(-gap, gap, ff * bound);
+    m->on = active & MASK(GREATER(gap, doubt) >= (real)0.0f);
     if (!ANY(m->on))
         return 0;
-    const real b = -compensated_dot(f, d, (real)0.0f, DOT(g, d));
-    const real c =
-        compensated_dot(f, f, -rr, fma((real)2.0f, DOT(f, g), -fma(radius, radius, -rr)));
-    /* Near the surface the roots' product is the better known. */
-    const real by_product = difference_of_products(b, b, r->dd, c);
-    const mask near_surface = MASK(fabs(c) * (real)4.0f < rr);
-    const real root = ROOT(SELECT(discriminant, GREATER(by_product, (real)0.0f), near_surface));
-    meet_at_root(r, center, radius, b, c, root, m);
+    const mask rest = MASK(GREATER(doubt, rr - c) >= (real)0.0f);
+    if (ANY(m->on & rest)) {
+        /* Not from outside of the sphere away from it, as from its own surface. */
+        const real ahead = GREATER(GREATER(fma(ff, (real)OUTSIDE_BOUND, -c), b), -r->tmin);
+        discriminant = SELECT(discriminant, (real)-1.0f, rest & MASK(ahead <= (real)0.0f));
+        const mask left = rest & MASK(ahead > (real)0.0f);
+        if (ANY(m->on & left))
+            make_exact(r, center, radius, left, &b, &c, &discriminant);
+        if (!ANY(m->on & MASK(discriminant >= (real)0.0f)))
+            return 0;
+    }
+    m->on = m->on & MASK(discriminant >= (real)0.0f);
+#else
+    m->on = active & MASK(gap >= (real)0.0f);
+    if (!ANY(m->on))
+        return 0;
+#endif
+    meet_at_root(r, center, radius, b, c, ROOT(discriminant), m);
     return 1;
 }
-#endif
 
 /* Offers a block to the groups whose bits are set. */
 INLINE int offer_spheres(packet *p, int groups, const world *w, int block, const int any)

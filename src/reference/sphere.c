@@ -3,30 +3,32 @@
 #include "reference/effects.h"
 #include "reference/margins.h"
 
-/* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
-static bool sphere_roots(const ray *r, vec center, real radius, real *near, real *far)
+/* dd t t - 2 b t + c = 0, of which `discriminant` is a quarter: its roots are where a ray meets a
+ * sphere. */
+typedef struct quadratic {
+    real dd, b, c, discriminant;
+} quadratic;
+
+/* Adding numbers of like sign cancels nothing; the product of the roots gives the other. */
+static void roots_of(const quadratic *e, real *near, real *far)
 {
-    const vec f = minus(r->origin, center);
-    const real dd = dot(r->direction, r->direction);
-    const real b = -dot(f, r->direction);
+    const real root = SQRT(e->discriminant);
+    const real q = e->b >= 0 ? e->b + root : e->b - root;
+    *near = e->b >= 0 ? e->c / q : q / e->dd;
+    *far = e->b >= 0 ? q / e->dd : e->c / q;
+}
+
+/* The plain test; `gap` is by how much the square of the radius exceeds that of the distance of ray
+ * and centre. */
+static quadratic plain_quadratic(const ray *r, vec f, real radius, real *gap)
+{
+    quadratic e = {.dd = dot(r->direction, r->direction), .b = -dot(f, r->direction)};
     /* From the centre to the ray's closest approach. */
-    const vec l = add_scaled(r->direction, b * ((real)1 / dd), f);
-    const real discriminant = FMA(radius, radius, -dot(l, l));
-    if (!(discriminant >= 0))
-        return false;
-    const real root = SQRT(dd * discriminant);
-    const real c = FMA(-radius, radius, dot(f, f));
-    /* Adding numbers of like sign cancels nothing; the product of the roots gives the other. */
-    if (b >= 0) {
-        const real q = b + root;
-        *near = c / q;
-        *far = q / dd;
-    } else {
-        const real q = b - root;
-        *near = q / dd;
-        *far = c / q;
-    }
-    return true;
+    const vec l = add_scaled(r->direction, e.b * ((real)1 / e.dd), f);
+    *gap = FMA(radius, radius, -dot(l, l));
+    e.c = FMA(-radius, radius, dot(f, f));
+    e.discriminant = e.dd * *gap;
+    return e;
 }
 
 /* A number and what rounding took from it: together they are exact. */
@@ -65,7 +67,7 @@ static real precise_sum(vec a, vec b, real last, real small)
 }
 
 /* The same; hit or miss is as in exact arithmetic, but for rays that all but touch. */
-static bool robust_roots(const ray *r, vec center, real radius, real *near, real *far)
+static quadratic exact_quadratic(const ray *r, vec center, real radius)
 {
     const vec d = r->direction;
     const twofold fx = sum_of(r->origin.x, -center.x), fy = sum_of(r->origin.y, -center.y),
@@ -74,22 +76,53 @@ static bool robust_roots(const ray *r, vec center, real radius, real *near, real
     const vec small = cross(rest, d);
     const vec across = {area(f.y, d.z, f.z, d.y) + small.x, area(f.z, d.x, f.x, d.z) + small.y,
                         area(f.x, d.y, f.y, d.x) + small.z};
-    const real dd = dot(d, d);
+    quadratic e = {.dd = dot(d, d)};
     const twofold rr = product_of(radius, radius);
-    real discriminant = FMA(rr.value, dd, -dot(across, across));
-    if (!(discriminant >= 0))
-        return false;
-    const real b = -precise_sum(f, d, 0, dot(rest, d));
-    const real c = precise_sum(f, f, -rr.value, FMA(2, dot(f, rest), -rr.rest));
+    e.discriminant = FMA(rr.value, e.dd, -dot(across, across));
+    e.b = -precise_sum(f, d, 0, dot(rest, d));
+    e.c = precise_sum(f, f, -rr.value, FMA(2, dot(f, rest), -rr.rest));
     /* Near the surface the product of the roots is the better known. */
-    if (FABS(c) * 4 < rr.value) {
-        discriminant = area(b, b, dd, c);
-        discriminant = discriminant > 0 ? discriminant : 0;
+    if (e.discriminant >= 0 && FABS(e.c) * 4 < rr.value) {
+        e.discriminant = area(e.b, e.b, e.dd, e.c);
+        e.discriminant = e.discriminant > 0 ? e.discriminant : 0;
     }
-    const real root = SQRT(discriminant);
-    const real q = b >= 0 ? b + root : b - root;
-    *near = b >= 0 ? c / q : q / dd;
-    *far = b >= 0 ? q / dd : c / q;
+    return e;
+}
+
+/* The roots of |origin + t direction - center| = radius, the nearer first; false without any. */
+static bool plain_roots(const ray *r, vec center, real radius, real *near, real *far)
+{
+    real gap;
+    const quadratic e = plain_quadratic(r, minus(r->origin, center), radius, &gap);
+    if (!(gap >= 0))
+        return false;
+    roots_of(&e, near, far);
+    return true;
+}
+
+/* The same by the plain test where that is surely right and good to a few ulp: it is not for rays
+ * that start near the surface or inside, nor where `gap` is less than what rounding makes of it,
+ * 7 |f| radius half ulps at most and 50 squares of a half ulp of |f|. */
+static bool robust_roots(const ray *r, vec center, real radius, real *near, real *far)
+{
+    const vec f = minus(r->origin, center);
+    const real ff = dot(f, f), rr = radius * radius;
+    const real per_radius = 16 * HALF_ULP, per_distance = 128 * HALF_ULP * HALF_ULP;
+    real gap;
+    quadratic e = plain_quadratic(r, f, radius, &gap);
+    const real bound = ff * FMA(ff, per_distance * per_distance, rr * (per_radius * per_radius));
+    const bool is_unsure = FMA(-gap, gap, bound) >= 0;
+    if (!is_unsure && gap < 0)
+        return false;
+    if (is_unsure || rr - e.c >= 0) {
+        const bool surely_outside = FMA(ff, 8 * HALF_ULP, -e.c) <= 0;
+        if (surely_outside && e.b <= 0 && r->tmin >= 0)
+            return false; /* away from it */
+        e = exact_quadratic(r, center, radius);
+    }
+    if (!(e.discriminant >= 0))
+        return false;
+    roots_of(&e, near, far);
     return true;
 }
 
@@ -109,7 +142,7 @@ bool NAME(meet_sphere)(const rt_scene *scene, const ray *r, size_t i, hit *h)
     const vec center = vec_of(sphere->cx, sphere->cy, sphere->cz);
     const real radius = (real)sphere->radius;
     if (!(is_robust(scene) ? robust_roots(r, center, radius, &near, &far)
-                           : sphere_roots(r, center, radius, &near, &far)))
+                           : plain_roots(r, center, radius, &near, &far)))
         return false;
     h->t = near > r->tmin ? near : far;
     return true;
