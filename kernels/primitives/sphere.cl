@@ -229,7 +229,7 @@ INLINE void sphere_surface(const traced *w, int index, __global const rt_sphere_
 
 /* By longitude, which goes round, and latitude, which ends at the poles, about the y axis. */
 INLINE void sphere_picture_point(const pictures *p, int index, number u, number v, const surface *s,
-                                 picture_place *at)
+                                 texture_place *at)
 {
     const vec3 out = SCALE(s->facing, s->outside ? (number)1.0f : (number)-1.0f);
     const number pole = fmin(fmax(out.y, (number)-1.0f), (number)1.0f);

@@ -190,7 +190,7 @@ INLINE void triangle_surface(const traced *w, int index, __global const rt_trian
 }
 
 INLINE void triangle_picture_point(const pictures *p, int index, number u, number v,
-                                   const surface *s, picture_place *at)
+                                   const surface *s, texture_place *at)
 {
     const int record = p->uvs_of[index];
     if (record < 0)

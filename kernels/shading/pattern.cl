@@ -29,10 +29,10 @@ typedef struct pictures {
 
 /* Where on a picture a surface is: (0, 0) is its lower left, (1, 1) its upper right; whether it is
  * repeated beyond them or ends. */
-typedef struct picture_place {
+typedef struct texture_place {
     number x, y;
     int repeats_x, repeats_y;
-} picture_place;
+} texture_place;
 
 /* A coordinate of a picture, from 0 to 1; of an infinite one 0 or what is at that end. */
 INLINE number on_picture(number x, int repeats)
@@ -64,12 +64,12 @@ INLINE void texel_at(const pictures *p, const rt_texture t, int x, int y, vec3 *
  * is repeated or not as the material says, unless the kind knows better. */
 #define DECLARE_PICTURE_POINT(name, names, NAMES)                                                  \
     INLINE void name##_picture_point(const pictures *p, int index, number u, number v,             \
-                                     const surface *s, picture_place *at);
+                                     const surface *s, texture_place *at);
 RT_KINDS(DECLARE_PICTURE_POINT)
 
 /* Where on a picture a hit is. */
 INLINE void picture_point(const pictures *p, const traced *w, size_t i, int index, const surface *s,
-                          int repeats, picture_place *at)
+                          int repeats, texture_place *at)
 {
     const number u = w->hit_array[RT_HIT_U * w->step + i];
     const number v = w->hit_array[RT_HIT_V * w->step + i];
@@ -86,7 +86,7 @@ INLINE void picture_point(const pictures *p, const traced *w, size_t i, int inde
 
 /* A picture's colour at a place. */
 INLINE void picture_color(const pictures *p, const rt_texture t, int nearest,
-                          const picture_place *at, vec3 *color)
+                          const texture_place *at, vec3 *color)
 {
     const number across = on_picture(at->x, at->repeats_x) * (number)t.width;
     const number up = on_picture(at->y, at->repeats_y) * (number)t.height;

@@ -125,7 +125,7 @@ INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
         tone->z = is_odd ? other.z : (number)1.0f;
     }
     if (ON(TEXTURE) && m->texture >= 0) {
-        picture_place at;
+        texture_place at;
         vec3 picture;
         picture_point(&w->pictures, &w->hits, i, index, s, !m->clamp, &at);
         picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, &at, &picture);
