@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/actions.h"
+#include "cli/signals.h"
 #include "study/report.h"
 #include "study/study.h"
 #include "study/study_json.h"
@@ -52,20 +53,28 @@ bool rt_action_study(rt_run *r)
     return good;
 }
 
+static bool keep_going(void *context, double done)
+{
+    (void)context;
+    (void)done;
+    return !rt_signals_have_come();
+}
+
 /* REPORT.json is REPORT, whose other files are made anew. */
 bool rt_action_plot(rt_run *r)
 {
     rt_study study = {0};
     rt_study_report report;
+    const rt_watch watch = {keep_going, NULL};
+    rt_signals_catch();
     rt_study_report_init(&report);
     char *name = strdup(r->options.plot);
-    bool good = name || rt_status_no_memory(&r->status, "a path");
-    if (good) {
-        name[strlen(name) - strlen(RT_PLOT_ENDING)] = '\0';
-        good = rt_study_read_json(&study, r->options.plot, &r->status) &&
-               rt_study_report_open(&report, name, true, &r->status) &&
-               rt_study_report_write(&report, &study, NULL, NULL, &r->status);
-    }
+    if (!name)
+        return rt_status_no_memory(&r->status, "a path");
+    name[strlen(name) - strlen(RT_PLOT_ENDING)] = '\0';
+    const bool good = rt_study_read_json(&study, r->options.plot, &r->status) &&
+                      rt_study_report_open(&report, name, true, &r->status) &&
+                      rt_study_report_write(&report, &study, NULL, &watch, &r->status);
     if (good) {
         rt_run_warn(r);
         rt_study_report_tell(&report, &study, stdout);

@@ -104,27 +104,23 @@ static json_t *value_of(const rt_field *field, const char *at)
     return value;
 }
 
-/* The object that a field is in, and its name there. */
-static json_t *holder_of(json_t *object, const char *name, bool make, const char **last)
+/* A name without what is behind its '/', if it has one; returns what is, or all of it. */
+static const char *split(const char *name, char group[NAME_SIZE])
 {
     const char *slash = strchr(name, '/');
-    *last = name;
-    if (!slash)
-        return object;
-    char group[NAME_SIZE];
-    snprintf(group, sizeof group, "%.*s", (int)(slash - name), name);
-    if (make && !json_object_get(object, group))
-        json_object_set_new(object, group, json_object());
-    *last = slash + 1;
-    return json_object_get(object, group);
+    snprintf(group, NAME_SIZE, "%.*s", slash ? (int)(slash - name) : 0, name);
+    return slash ? slash + 1 : name;
 }
 
 void rt_fields_write(json_t *object, const rt_field *fields, const void *base)
 {
     for (const rt_field *f = fields; f->name; ++f) {
-        const char *last;
-        json_t *holder = holder_of(object, f->name, true, &last);
-        json_object_set_new(holder, last, value_of(f, (const char *)base + f->offset));
+        char group[NAME_SIZE];
+        const char *last = split(f->name, group);
+        if (*group && !json_object_get(object, group))
+            json_object_set_new(object, group, json_object());
+        json_object_set_new(*group ? json_object_get(object, group) : object, last,
+                            value_of(f, (const char *)base + f->offset));
     }
 }
 
@@ -153,9 +149,9 @@ static bool read_value(const json_t *value, const rt_field *field, char *at)
 const char *rt_fields_read(const json_t *object, const rt_field *fields, void *base)
 {
     for (const rt_field *f = fields; f->name; ++f) {
-        const char *last;
-        /* Nothing is made where it is only looked for. */
-        const json_t *holder = holder_of((json_t *)(uintptr_t)object, f->name, false, &last);
+        char group[NAME_SIZE];
+        const char *last = split(f->name, group);
+        const json_t *holder = *group ? json_object_get(object, group) : object;
         if (!read_value(json_object_get(holder, last), f, (char *)base + f->offset))
             return f->name;
     }
@@ -177,8 +173,8 @@ void rt_fields_print_names(const rt_field *fields, FILE *out)
         const rt_field *parts = parts_of(f);
         char group[NAME_SIZE];
         snprintf(group, sizeof group, "%s", f->name);
-        for (char *p = group; *p; ++p)
-            *p = *p == '/' ? '_' : *p;
+        for (char *slash; (slash = strchr(group, '/'));)
+            *slash = '_';
         if (!parts)
             print_name("", f->name, out);
         for (const rt_field *part = parts; part && part->name; ++part)

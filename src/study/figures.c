@@ -110,7 +110,7 @@ static void spread_most(const uint8_t *from, uint8_t *to, size_t count, size_t s
 uint8_t *rt_study_noise_of(const rt_image *reference, const rt_image *converged)
 {
     const size_t width = (size_t)reference->width, height = (size_t)reference->height;
-    uint8_t *noise = malloc(width * height), *across = malloc(width * height);
+    uint8_t *noise = calloc(height, width), *across = calloc(height, width);
     if (noise && across) {
         for (size_t i = 0; i < width * height; ++i)
             noise[i] = (uint8_t)steps_apart(reference, converged, i);

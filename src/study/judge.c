@@ -88,13 +88,13 @@ size_t rt_study_recommended(const rt_study *study, size_t device)
 {
     const size_t last = study->plan.sample_count - 1, none = study->entry_count;
     const bool has_times = rt_study_doubt_of(study, device).kind == RT_DOUBT_NONE;
-    size_t best = none, taken = none;
+    size_t best = none;
     for (size_t i = 0; i < study->entry_count; ++i)
         if (study->entries[i].device == device && !rt_study_is_wrong(study, i) &&
             (best == none || (has_times && rt_study_cell_at(study, last, i)->ratio.median <
                                                rt_study_cell_at(study, last, best)->ratio.median)))
             best = i;
-    taken = best;
+    size_t taken = best;
     for (size_t i = 0; has_times && best != none && i < study->entry_count; ++i)
         if (study->entries[i].device == device &&
             study->entries[i].level > study->entries[best].level && !rt_study_is_wrong(study, i) &&

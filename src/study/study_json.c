@@ -132,7 +132,7 @@ static bool read_device(const reading *r, const json_t *json, rt_study_device *d
 {
     const json_t *lacking = json_object_get(json, "levels_lacking");
     for (size_t i = 0; i < json_array_size(lacking); ++i) {
-        enum rt_accuracy level;
+        enum rt_accuracy level = RT_ACCURACY_FAST;
         if (!read_level(r, json_array_get(lacking, i), false, &level))
             return false;
         device->lacks[level] = true;
