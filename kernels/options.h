@@ -4,7 +4,7 @@
 
 /* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY
-#define RT_ACCURACY 1
+#define RT_ACCURACY 2
 #endif
 #if RT_ACCURACY < 0 || RT_ACCURACY > 3
 #error "RT_ACCURACY must be from 0 to 3"

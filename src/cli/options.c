@@ -170,7 +170,7 @@ static const struct row {
      "bvh, the default, or none: try every primitive with every ray;\n"
      "the picture is the same\n"},
     {"accuracy", 0, "LEVEL", read_accuracy, "fast, standard, robust or double",
-     "fast, standard (the default), robust or double, whatever the\n"
+     "fast, standard, robust (the default) or double, whatever the\n"
      "scene says\n"},
     {"device", 'd', "DEVICE", read_device, "the name or index of a device",
      "where to render: an index of --list-devices, P:D, cpu, gpu,\n"

@@ -247,6 +247,7 @@ static bool measure_fused(bench *b, int size)
     rt_bvh bvh = {0};
     rt_scene_init(&scene);
     bool good = rt_scene_read(&scene, "scenes/icecream.txt", &b->status);
+    scene.accuracy = RT_ACCURACY_STANDARD; /* fused.cl's */
     scene.width = scene.height = size;
     snprintf(input, sizeof input, "icecream %dx%d", size, size);
     good = good && rt_bvh_build(&bvh, &scene, rt_parallel_processors(), &b->status) &&

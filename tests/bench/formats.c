@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/accuracy.h"
+
 /* Nine digits tell every float from its neighbours. */
 #define XYZ "%.9g %.9g %.9g"
 #define VECTOR "<%.9g,%.9g,%.9g>"
@@ -29,10 +31,11 @@ static void rt_body(const rt_scene *s, FILE *out)
     const rt_camera *c = &s->camera;
     const rt_material *m = &s->materials[0];
     fprintf(out,
-            "rt 1\nimage width %d height %d\ncamera from " XYZ " at " XYZ " up " XYZ
+            "rt 1\naccuracy %s\nimage width %d height %d\ncamera from " XYZ " at " XYZ " up " XYZ
             " vfov %.9g\nambient " XYZ "\n",
-            s->width, s->height, THREE(c->from.x, c->from.y, c->from.z),
-            THREE(c->at.x, c->at.y, c->at.z), THREE(c->up.x, c->up.y, c->up.z), (double)c->vfov,
+            rt_accuracy_name(s->accuracy), s->width, s->height,
+            THREE(c->from.x, c->from.y, c->from.z), THREE(c->at.x, c->at.y, c->at.z),
+            THREE(c->up.x, c->up.y, c->up.z), (double)c->vfov,
             THREE(s->ambient.x, s->ambient.y, s->ambient.z));
     for (size_t i = 0; i < s->light_count; ++i) {
         const rt_light *l = &s->lights[i];

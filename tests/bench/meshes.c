@@ -141,6 +141,7 @@ static bool set_up_scene(rt_scene *scene, int size, rt_status *status)
                             .g = 0.9f,
                             .b = 0.9f};
     rt_scene_init(scene);
+    scene->accuracy = RT_ACCURACY_STANDARD; /* as what it is held against computes */
     scene->width = scene->height = size;
     scene->camera.from = (rt_vec3){0.0f, 0.0f, 3.0f};
     scene->camera.at = (rt_vec3){0.0f, 0.0f, 0.0f};

@@ -122,6 +122,7 @@ static bool measure_scene(bench_switched *s, bench *b, const char *name, int siz
     snprintf(path, sizeof path, "scenes/%s.txt", name);
     rt_scene_init(&scene);
     bool good = rt_scene_read(&scene, path, &b->status);
+    scene.accuracy = RT_ACCURACY_STANDARD;
     if (good) {
         make_small(&scene, size);
         s->width = scene.width;

@@ -358,7 +358,7 @@ static void statistics(void **state)
     if (!root)
         fail_msg("%s", error.text);
     assert_true(json_is_string(json_object_get(root, "device")));
-    assert_string_equal(json_string_value(json_object_get(root, "accuracy")), "standard");
+    assert_string_equal(json_string_value(json_object_get(root, "accuracy")), "robust");
     assert_near(number_at(root, NULL, "width"), 50, 0);
     assert_near(number_at(root, NULL, "height"), 40, 0);
     assert_true(number_at(root, NULL, "lanes") >= 1);

@@ -221,6 +221,7 @@ static bool covers_its_projection(void)
     rt_scene scene;
     rt_image image;
     test_scene_file(&scene, "scenes/triangle.txt");
+    scene.accuracy = RT_ACCURACY_STANDARD; /* of whose test the mutant is */
     test_draw(&scene, NULL, &image);
     int covered = 0;
     for (int i = 0; i < image.width * image.height; ++i)
