@@ -71,8 +71,8 @@ OBJECTS := $(SOURCES:$(SRC)src/%.c=$(BUILD)/%.o) $(BUILD)/opencl/kernel_text.o \
            $(patsubst $(SRC)src/%.c,$(BUILD)/%_double.o,$(wildcard $(SRC)src/reference/*.c))
 LIBRARY := $(filter-out $(BUILD)/main.o,$(OBJECTS))
 TESTS := $(patsubst $(SRC)%.c,$(BUILD)/%,$(wildcard $(SRC)tests/*/test_*.c))
-TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(wildcard $(SRC)tests/support/*.c) \
-                $(filter-out $(SRC)tests/hard/test_%,$(wildcard $(SRC)tests/hard/*.c)))
+TEST_HELPERS := $(patsubst $(SRC)%.c,$(BUILD)/%.o,$(filter-out $(SRC)tests/hard/test_% \
+                $(SRC)tests/truth/test_%,$(wildcard $(patsubst %,$(SRC)tests/%/*.c,support hard truth))))
 
 # ---- The program ----
 
@@ -152,6 +152,16 @@ check-hard: rt $(LONG_TESTS)
 	@$(in_source) RT=$(call from_source,./rt) RT_TEST_LONG=1 RT_HARD_RAYS=$${RT_HARD_RAYS:-10000000} \
 	    RT_HARD_TABLE=$(call from_source,$(BUILD)/hard.md) tests/run $(call from_source,$(LONG_TESTS))
 	@$(in_source) RT=$(call from_source,./rt) tests/hard/table $(call from_source,$(BUILD)/hard.md)
+
+.PHONY: test-truth check-truth
+test-truth: deps ## holds whole pictures against the truth at 67 counts of samples: minutes
+	$(remake) check-truth
+
+check-truth: rt $(BUILD)/tests/truth/test_truth
+	@rm -f $(BUILD)/truth.md
+	@$(in_source) RT_TRUTH_TABLE=$(call from_source,$(BUILD)/truth.md) \
+	    $(call from_source,$(BUILD)/tests/truth/test_truth)
+	@$(in_source) RT=$(call from_source,./rt) tests/truth/table $(call from_source,$(BUILD)/truth.md)
 
 .PHONY: test-processors
 test-processors: deps deps-processors ## renders as processors with AVX2 and with SSE4 alone do, by qemu
