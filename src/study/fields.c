@@ -30,7 +30,7 @@ const rt_field rt_study_fields[] = {
 
 const rt_field rt_study_device_fields[] = {
     FIELD(rt_study_device, "kernel_is_wall_time", FLAG, kernel_is_wall),
-    FIELD(rt_study_device, "waited_for_processors", NUMBER, waited), END};
+    FIELD(rt_study_device, "held_by_other_programs", NUMBER, held), END};
 
 const rt_field rt_study_entry_fields[] = {
     FIELD(rt_study_entry, "device", COUNT, device),

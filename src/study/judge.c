@@ -8,11 +8,10 @@
 #define RATIO_MARGIN 0.005
 /* Quartiles of a ratio may be that far apart, as a part of it. */
 #define RATIO_WIDTH 0.10
-/* Waiting for processors that others hold is taken off the times, but not what comes with it:
- * caches that others have filled, cores that two threads share, threads of one picture that begin
- * and end apart. Those slow one level more than another, evenly, so that no quartile tells of it.
- */
-#define WAITED_MOST 0.10
+/* What other programs take slows one level more than another, and evenly, so that no quartile tells
+ * of it: caches that they fill, cores that two threads share, threads of one picture that begin and
+ * end apart. */
+#define HELD_MOST 0.05
 /* The time of a ray may fall or rise by so much from one count of samples to the next. */
 #define GROWTH_FALL 0.5
 #define GROWTH_RISE 3.0
@@ -52,7 +51,8 @@ bool rt_study_is_narrow(const rt_spread *ratio)
 
 bool rt_study_is_free(const rt_spread *ratio)
 {
-    return ratio->low < 1.0 + RATIO_MARGIN && ratio->high > 1.0 - RATIO_MARGIN;
+    return (ratio->low < 1.0 + RATIO_MARGIN && ratio->high > 1.0 - RATIO_MARGIN) ||
+           fabs(ratio->median - 1.0) < ratio->high - ratio->low;
 }
 
 /* Whether from a count to the next one the time grows as the rays do. */
@@ -70,7 +70,7 @@ rt_study_doubt rt_study_doubt_of(const rt_study *study, size_t device)
     const size_t last = study->plan.sample_count - 1;
     if (study->rounds[last] < RT_STUDY_ROUNDS_LEAST)
         return (rt_study_doubt){RT_DOUBT_FEW, 0, last};
-    if (study->devices[device].waited > WAITED_MOST)
+    if (study->devices[device].held > HELD_MOST)
         return (rt_study_doubt){RT_DOUBT_BUSY, 0, last};
     for (size_t i = 0; i < study->entry_count; ++i) {
         if (study->entries[i].device != device)

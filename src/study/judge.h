@@ -24,7 +24,8 @@ bool rt_study_level_is_wrong(const rt_study *study, enum rt_accuracy level);
 
 /* Whether the quartiles of a ratio of times are near enough to each other to say something. */
 bool rt_study_is_narrow(const rt_spread *ratio);
-/* Whether the quartiles have 1, to two digits, between them: no measurable difference. */
+/* Whether there is no measurable difference: the quartiles have 1, to two digits, between them, or
+ * the median is nearer to 1 than they are to each other. */
 bool rt_study_is_free(const rt_spread *ratio);
 
 /* Why the times of a device say nothing. */

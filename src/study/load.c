@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #define TASKS "/proc/self/task"
 
@@ -23,9 +24,27 @@ static void add_thread(rt_load *load, const char *name)
     fclose(in);
 }
 
+/* And of all processors together in the first line of /proc/stat, in hundredths of a second. */
+static void add_processors(rt_load *load)
+{
+    unsigned long long user, nice, system, idle, io, irq, soft, stolen;
+    FILE *in = fopen("/proc/stat", "re");
+    if (!in)
+        return;
+    if (fscanf(in, "cpu %llu %llu %llu %llu %llu %llu %llu %llu", &user, &nice, &system, &idle, &io,
+               &irq, &soft, &stolen) == 8) {
+        const double tick = 1.0 / (double)sysconf(_SC_CLK_TCK);
+        load->busy = tick * (double)(user + nice + system + irq + soft);
+        load->stolen = tick * (double)stolen;
+        load->all = load->busy + load->stolen + tick * (double)(idle + io);
+    }
+    fclose(in);
+}
+
 rt_load rt_load_read(void)
 {
-    rt_load load = {0.0, 0.0};
+    rt_load load = {0};
+    add_processors(&load);
     DIR *tasks = opendir(TASKS);
     if (!tasks)
         return load;
@@ -36,8 +55,15 @@ rt_load rt_load_read(void)
     return load;
 }
 
-double rt_load_share(const rt_load *before, const rt_load *after)
+static double part(double of, double whole)
+{
+    return whole > 0.0 && of > 0.0 ? (of < whole ? of / whole : 1.0) : 0.0;
+}
+
+double rt_load_held(const rt_load *before, const rt_load *after)
 {
     const double ran = after->ran - before->ran, waited = after->waited - before->waited;
-    return ran > 0.0 && waited > 0.0 ? ran / (ran + waited) : 1.0;
+    const double all = after->all - before->all, busy = after->busy - before->busy;
+    const double mine = part(waited, ran + waited), others = part(busy - ran, all);
+    return (mine < others ? mine : others) + part(after->stolen - before->stolen, all);
 }

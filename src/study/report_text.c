@@ -144,19 +144,19 @@ static void note_times(const rt_study *study, rt_doc *doc)
         "Times: %d rounds after one that does not count, level by level there and back, and "
         "up to twice as many where they are uneven; medians, and quartiles where two "
         "numbers stand. Pictures of less than 25 ms are rendered several times a round. "
-        "Ratios are taken round by round; where their quartiles have 1 between them, there "
-        "is no measurable difference, and where those are more than a tenth apart, one "
-        "cannot tell.",
+        "Ratios are taken round by round; where their quartiles have 1 between them, or "
+        "the median is nearer to 1 than they are to each other, there is no measurable "
+        "difference, and where they are more than a tenth apart, one cannot tell.",
         study->plan.repeats);
     for (size_t d = 0; d < study->device_count; ++d) {
         const rt_study_device *device = &study->devices[d];
         if (device->kernel_is_wall)
             rt_doc_item(doc, "%s has no clock: its kernel times are wall times.", device->name);
-        if (device->waited > 0.0)
+        if (device->held > 0.0)
             rt_doc_item(doc,
                         "While %s rendered, other programs held its processors for %.2g %% of the "
-                        "time; that is taken off the kernel times.",
-                        device->name, 100.0 * device->waited);
+                        "time.",
+                        device->name, 100.0 * device->held);
     }
     rt_doc_item(doc, "Building the program counts what the driver had to do: less where it keeps "
                      "programs from earlier runs.");

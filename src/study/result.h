@@ -15,8 +15,8 @@ typedef struct rt_study_device {
     char *name, *platform, *driver; /* owned */
     bool lacks[RT_ACCURACY_COUNT];  /* levels that were asked for and that it does not have */
     bool kernel_is_wall;            /* it has no clock */
-    double waited; /* part of the time, 0 to 1, in which other programs held the processors that the
-                      pictures were to be rendered on; 0 for what is no CPU */
+    double held; /* part of the time, 0 to 1, in which other programs held the processors that the
+                    pictures were to be rendered on; 0 for what is no CPU */
 } rt_study_device;
 
 /* An entry is a level on a device. All trace the same fp32 rays, and their own next rays. */
@@ -32,7 +32,7 @@ typedef struct rt_study_entry {
 } rt_study_entry;
 
 /* An entry at a count of samples. Seconds; `kernel` and `readback` are by the device's clock, or
- * wall time where it has none, and `kernel` is without what was waited for a processor. */
+ * wall time where it has none. */
 typedef struct rt_study_cell {
     double program, upload;
     rt_spread kernel, readback, wall;

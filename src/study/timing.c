@@ -1,5 +1,5 @@
 /* What pictures take: every entry again and again, so that what changes on the machine meets all of
- * them, and what is told is the work and not the waiting. */
+ * them, by the device's own clock, which tells of its kernels alone. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -53,12 +53,13 @@ size_t rt_study_pictures_a_repeat(double seconds)
 typedef struct timings {
     size_t entries, rounds, most;
     double *kernel, *readback, *wall, *ratio; /* owned, all in `kernel`'s block */
-    rt_load sums[RT_STUDY_DEVICES_MOST];      /* what threads ran and waited meanwhile */
+    rt_load before;                           /* the machine's when it began */
 } timings;
 
 static bool make_timings(study_state *s, timings *t)
 {
     *t = (timings){.entries = s->study->entry_count,
+                   .before = rt_load_read(),
                    .most = (size_t)s->study->plan.repeats * REPEATS_TIMES_MOST};
     const size_t count = t->entries * t->most;
     t->kernel = calloc(4 * count + 1, sizeof *t->kernel);
@@ -70,13 +71,11 @@ static bool make_timings(study_state *s, timings *t)
     return true;
 }
 
-/* One repeat of an entry. On a CPU the pictures' threads wait where other programs hold its
- * processors; the system tells for how long, and that part is no work. */
+/* One repeat of an entry. */
 static bool repeat(study_state *s, size_t entry, rt_renderer *renderer, rt_image *image,
                    size_t pictures, double done, timings *t)
 {
-    const size_t at = entry * t->most + t->rounds, device = s->study->entries[entry].device;
-    const rt_load before = rt_load_read();
+    const size_t at = entry * t->most + t->rounds;
     for (size_t k = 0; k < pictures; ++k) {
         study_taken one;
         if (!rt_study_tick(s, done) || !rt_study_draw(s, entry, renderer, image, NULL, &one))
@@ -84,12 +83,6 @@ static bool repeat(study_state *s, size_t entry, rt_renderer *renderer, rt_image
         t->kernel[at] += one.kernel / (double)pictures;
         t->readback[at] += one.readback / (double)pictures;
         t->wall[at] += one.wall / (double)pictures;
-    }
-    const rt_load after = rt_load_read();
-    if (s->how->devices[device]->type & CL_DEVICE_TYPE_CPU) {
-        t->kernel[at] *= rt_load_share(&before, &after);
-        t->sums[device].ran += after.ran - before.ran;
-        t->sums[device].waited += after.waited - before.waited;
     }
     return true;
 }
@@ -177,11 +170,16 @@ static void summarise(rt_study *study, timings *t, size_t sample_index)
         cell->readback = rt_spread_of(t->readback + i * t->most, t->rounds);
         cell->wall = rt_spread_of(t->wall + i * t->most, t->rounds);
     }
-    /* The finest pictures, which are measured last, are those that the verdict goes by. */
-    for (size_t d = 0; d < study->device_count; ++d) {
-        const rt_load zero = {0.0, 0.0};
-        study->devices[d].waited = 1.0 - rt_load_share(&zero, &t->sums[d]);
-    }
+}
+
+/* On a CPU pictures wait where other programs hold its processors. The finest pictures, which are
+ * measured last, are those that the verdict goes by. */
+static void note_load(study_state *s, const timings *t)
+{
+    const rt_load after = rt_load_read();
+    for (size_t d = 0; d < s->study->device_count; ++d)
+        s->study->devices[d].held =
+            s->how->devices[d]->type & CL_DEVICE_TYPE_CPU ? rt_load_held(&t->before, &after) : 0.0;
 }
 
 double rt_study_reserve(double work)
@@ -201,8 +199,10 @@ bool rt_study_time(study_state *s, size_t sample_index, rt_renderer *const *rend
     if (!make_timings(s, &t))
         return false;
     const bool good = take_times(s, renderers, image, pictures, &t, work);
-    if (good)
+    if (good) {
+        note_load(s, &t);
         summarise(s->study, &t, sample_index);
+    }
     free(t.kernel);
     return good;
 }

@@ -130,7 +130,7 @@ void rt_study_say_doubt(const rt_study *study, size_t device, FILE *out)
         fprintf(out,
                 "Other programs held the processors for %.0f %% of the time that rt could "
                 "have used them.",
-                100.0 * study->devices[device].waited);
+                100.0 * study->devices[device].held);
         break;
     case RT_DOUBT_NO_GROWTH:
         fprintf(

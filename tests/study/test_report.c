@@ -77,7 +77,7 @@ static void json_there_and_back(void **state)
     test_make_up_study(&study, 2);
     study.devices[1].lacks[RT_ACCURACY_DOUBLE] = true;
     study.devices[1].kernel_is_wall = true;
-    study.devices[0].waited = 0.25;
+    study.devices[0].held = 0.25;
     test_cell(&study, RT_ACCURACY_ROBUST, 2)->visible = 77;
     write_json(&study, test_path("a.json"));
     assert_good(rt_study_read_json(&read, test_path("a.json"), &status), &status);

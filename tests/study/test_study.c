@@ -226,7 +226,7 @@ static void progress_goes_forward(void **state)
 static void a_busy_machine(void **state)
 {
     (void)state;
-    const bool can_tell = run("grep -q '^[1-9]' /proc/self/schedstat") == 0;
+    const bool can_tell = run("[ -r /proc/self/schedstat ] && [ -r /proc/stat ]") == 0;
     if (!can_tell || !(test_device()->type & CL_DEVICE_TYPE_CPU))
         skip();
     assert_int_equal(run("loops=; for i in $(seq $(nproc)); do sh -c 'while :; do :; done' & "

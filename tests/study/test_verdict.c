@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/load.h"
 #include "study/report_text.h"
 #include "study/verdict.h"
 
@@ -100,7 +101,7 @@ static void which_to_take(void **state)
                             "standard.");
     assert_says(&study, "robust: right, as far as you can see. At 16 samples a pixel a picture "
                         "takes 24 ms, no measurable difference to the time of standard");
-    test_cell(&study, RT_ACCURACY_ROBUST, 2)->ratio = (rt_spread){1.01, 1.02, 1.03};
+    test_cell(&study, RT_ACCURACY_ROBUST, 2)->ratio = (rt_spread){1.01, 1.02, 1.025};
     assert_int_equal(rt_study_recommended(&study, 0), 0);
     test_cell(&study, RT_ACCURACY_ROBUST, 2)->ratio = (rt_spread){2.29, 2.31, 2.33};
     assert_says(&study, "2.3 times the time of standard");
@@ -170,10 +171,10 @@ static void what_cannot_be_told(void **state)
                  "After 18 rounds the time of robust is still between 0.90 and 1.23 of that of "
                  "standard in half of them");
     *cell = before;
-    study.devices[0].waited = 0.5;
+    study.devices[0].held = 0.5;
     assert_doubt(&study, RT_DOUBT_BUSY, "other programs kept the machine busy",
                  "Other programs held the processors for 50 % of the time");
-    study.devices[0].waited = 0.02;
+    study.devices[0].held = 0.02;
     assert_int_equal(rt_study_doubt_of(&study, 0).kind, RT_DOUBT_NONE);
     cell->kernel.median *= 0.3; /* 16 samples take 1.2 times as long as 4 */
     assert_doubt(&study, RT_DOUBT_NO_GROWTH, "the times do not grow with the work",
@@ -260,7 +261,7 @@ static void two_devices(void **state)
     assert_says(&study, "Cannot tell which is faster, device 0 (a \"device\") or device 1 (the "
                         "other): the times are too uneven.");
     cell->ratio_to_first = (rt_spread){1.99, 2.0, 2.01};
-    study.devices[1].waited = 0.5;
+    study.devices[1].held = 0.5;
     assert_says(&study, "Cannot tell which is faster, device 0 (a \"device\") or device 1 (the "
                         "other): other programs kept the machine busy.");
     assert_headline(&study, TAKE_ROBUST);
@@ -289,11 +290,37 @@ static void what_is_free(void **state)
     (void)state;
     assert_true(rt_study_is_free(&(rt_spread){1.0, 1.1, 1.2}));
     assert_true(rt_study_is_free(&(rt_spread){1.004, 1.1, 1.2}));
-    assert_false(rt_study_is_free(&(rt_spread){1.01, 1.1, 1.2}));
-    assert_false(rt_study_is_free(&(rt_spread){0.8, 0.9, 0.99}));
+    assert_true(rt_study_is_free(&(rt_spread){1.01, 1.1, 1.2}));
+    assert_true(rt_study_is_free(&(rt_spread){0.95, 0.97, 0.99}));
+    assert_false(rt_study_is_free(&(rt_spread){1.01, 1.02, 1.025}));
+    assert_false(rt_study_is_free(&(rt_spread){0.86, 0.9, 0.94}));
     assert_true(rt_study_is_narrow(&(rt_spread){0.96, 1.0, 1.05}));
     assert_false(rt_study_is_narrow(&(rt_spread){0.94, 1.0, 1.05}));
     assert_false(rt_study_is_narrow(&(rt_spread){NAN, NAN, NAN}));
+}
+
+/* Two processors for ten seconds. */
+static void assert_held(double ran, double waited, double busy, double stolen, double held)
+{
+    const rt_load before = {1.0, 2.0, 30.0, 4.0, 500.0};
+    const rt_load after = {1.0 + ran, 2.0 + waited, 30.0 + busy, 4.0 + stolen, 520.0};
+    assert_near(rt_load_held(&before, &after), held, 1e-9);
+}
+
+static void what_others_hold(void **state)
+{
+    (void)state;
+    assert_held(20.0, 0.0, 20.0, 0.0, 0.0);  /* alone */
+    assert_held(18.0, 4.0, 18.0, 0.0, 0.0);  /* own threads wait for each other */
+    assert_held(10.0, 10.0, 20.0, 0.0, 0.5); /* two busy loops beside */
+    assert_held(15.0, 5.0, 20.0, 0.0, 0.25); /* one that gets half of a processor */
+    assert_held(5.0, 0.0, 15.0, 0.0, 0.0);   /* others, on a processor that is not waited for */
+    assert_held(18.0, 0.0, 18.0, 2.0, 0.1);  /* another machine of the same host */
+    const rt_load none = {0};
+    assert_near(rt_load_held(&none, &none), 0.0, 0.0);
+    /* This process's own, which has run for some time; where the system tells. */
+    const rt_load now = rt_load_read();
+    assert_true(now.busy <= now.all && now.ran >= 0.0 && now.ran <= now.busy + 1.0);
 }
 
 int main(void)
@@ -303,7 +330,7 @@ int main(void)
         cmocka_unit_test(what_is_shown),  cmocka_unit_test(what_cannot_be_told),
         cmocka_unit_test(noisy_times),    cmocka_unit_test(the_key),
         cmocka_unit_test(two_devices),    cmocka_unit_test(what_is_dominated),
-        cmocka_unit_test(what_is_free),
+        cmocka_unit_test(what_is_free),   cmocka_unit_test(what_others_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
