@@ -256,19 +256,27 @@ static const char *bold(bool holds)
 static void tell_figures(FILE *out, const truth_row *row, const truth_figures *f)
 {
     const char *b = bold(f->bias <= GATE_BIAS), *a = bold(f->all <= GATE_ALL);
-    const char *s = bold(is_steep(f->slope)), *m = bold(is_near(row, f->steps));
-    fprintf(out, " %s%.1f at %d%s | %s%.1f%s |", b, f->bias, f->bias_count, b, a, f->all, a);
+    const char *s = bold(is_steep(f->slope)), *w = bold(is_near(row, f->steps));
+    if (f->bias_count)
+        fprintf(out, " %s%.1f at %d%s |", b, f->bias, f->bias_count, b);
+    else
+        fprintf(out, " 0 |");
+    fprintf(out, " %s%.1f%s |", a, f->all, a);
     if (isnan(f->slope))
         fprintf(out, " no noise |");
     else
         fprintf(out, " %s%.2f%s |", s, f->slope, s);
-    fprintf(out, " %s%.1f%s |", m, f->steps, m);
+    fprintf(out, " %s%.1f%s |", w, f->steps, w);
 }
 
 static void tell(FILE *out, const truth_row *row, const truth_figures *device,
                  const truth_figures *reference)
 {
-    fprintf(out, "| %s |", row->name);
+    fprintf(out, "| %s | ", row->name);
+    if (row->most)
+        fprintf(out, "1, 2 .. %d |", row->most);
+    else
+        fprintf(out, "all |");
     if (device)
         tell_figures(out, row, device);
     tell_figures(out, row, reference);
