@@ -216,7 +216,7 @@ static void mirrors_and_glass(void **state)
     HOLD(furnaces);
 }
 
-/* On the device, which is right first. A few counts do. */
+/* On the device, which is right first. A few counts do, and no tree, which compiles faster. */
 static void wrong_samplers_are_noticed(void **state)
 {
     (void)state;
@@ -228,7 +228,9 @@ static void wrong_samplers_are_noticed(void **state)
         truth_figures figures;
         if (mutants[i])
             test_mutate_kernels(mutants[i]);
+        test_use_tree(false);
         truth_measure(&pixel_and_lens, truth_draw_device, &figures);
+        test_use_tree(true);
         test_restore_kernels();
         if (truth_holds(&pixel_and_lens, &figures) != (mutants[i] == MUTANT_NONE))
             fail_msg("%s: bias %.1f at %d, of all %.1f, slope %.2f",
