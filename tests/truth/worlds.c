@@ -20,7 +20,7 @@ void truth_triangle(truth_text *text, truth_vec a, truth_vec b, truth_vec c, con
             a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, material);
 }
 
-/* One triangle each, which has no seam. What is behind it must not reach beyond it. */
+/* One triangle, which has no seam. What is behind it must not reach beyond it. */
 static void add_mirror(truth_text *text)
 {
     const double side = 21.0, long_side = 42.0;
