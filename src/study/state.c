@@ -66,6 +66,8 @@ bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderer
 
 void rt_study_free_renderers(rt_renderer **renderers)
 {
-    for (size_t i = 0; i < RT_STUDY_ENTRIES_MOST; ++i)
+    for (size_t i = 0; i < RT_STUDY_ENTRIES_MOST; ++i) {
         rt_renderer_free(renderers[i]);
+        renderers[i] = NULL;
+    }
 }

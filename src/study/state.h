@@ -36,6 +36,7 @@ rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_b
 /* One renderer an entry, in order, of the scene studied; the rest of the array, which has
  * RT_STUDY_ENTRIES_MOST, is NULL. To be freed after a failure too. */
 bool rt_study_make_renderers(study_state *s, int samples, rt_renderer **renderers);
+/* Leaves NULL everywhere, so that it may be called again. */
 void rt_study_free_renderers(rt_renderer **renderers);
 
 /* A number in [0, 1) that depends on its arguments alone (Wellons' lowbias32). */

@@ -9,6 +9,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "study/study.h"
+
 static char errors[8192];
 
 /* Runs a command in which $T is the test folder and $RT the program. */
@@ -310,6 +312,43 @@ static void failures(void **state)
 }
 
 /* A study of minutes, stopped after one that is there already; nothing of it is touched. */
+static bool has_ticks(void *context, double done)
+{
+    int *left = context;
+    (void)done;
+    return (*left)-- > 0;
+}
+
+/* Stopped wherever it asks, a study ends as one that is interrupted, and lets go of all once. */
+static void a_stop_anywhere(void **state)
+{
+    (void)state;
+    const rt_device *device = test_device();
+    const rt_study_how how = {.devices = &device, .device_count = 1};
+    rt_study_plan plan = rt_study_plan_default();
+    assert_true(rt_study_plan_read_levels(&plan, "standard"));
+    assert_true(rt_study_plan_read_samples(&plan, "1,2"));
+    plan.repeats = 1;
+    rt_scene scene;
+    test_scene_file(&scene, "scenes/sphere.txt");
+    scene.width = scene.height = 8;
+    bool has_ended = false;
+    for (int ticks = 0; !has_ended; ticks += 1 + ticks / 8) {
+        rt_study study;
+        rt_study_strip strip = {0};
+        rt_status status = RT_STATUS_INIT;
+        int left = ticks;
+        const rt_watch watch = {has_ticks, &left};
+        has_ended = rt_study_run(&study, &strip, &scene, "sphere", &plan, &how, &watch, &status);
+        assert_true(ticks < 1000 && (has_ended || status.code == RT_INTERRUPTED));
+        if (has_ended)
+            rt_study_clear(&study);
+        rt_study_strip_clear(&strip);
+        rt_status_clear(&status);
+    }
+    rt_scene_clear(&scene);
+}
+
 static void an_interrupt(void **state)
 {
     (void)state;
@@ -341,6 +380,7 @@ int main(void)
         cmocka_unit_test(without_gnuplot),
         cmocka_unit_test(names_with_quotes),
         cmocka_unit_test(failures),
+        cmocka_unit_test(a_stop_anywhere),
         cmocka_unit_test(an_interrupt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
