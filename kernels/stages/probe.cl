@@ -161,7 +161,7 @@ rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
 
 #if RT_PROBES
 /* Counts the probes that got through, a row of `open` a light and one more for ambient light, and,
- * for --stats, those that were cast: for shadows, then for ambient light. */
+ * for --stats, those that were cast. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_tally(const int stride, const rt_turn turn, const int light_count, __global const number *probes,
          __global const int *blocked, __global int *open, __global ulong *tallies)

@@ -218,17 +218,20 @@ bool rt_passes_read_tallies(rt_renderer *r, rt_status *status)
     if (!r->tile[BUFFER_TALLIES])
         return true;
     const size_t count = (size_t)r->stride;
-    cl_ulong part[1024], sums[RT_TALLY_COMPONENTS] = {0};
-    for (size_t at = 0; at < RT_TALLY_COMPONENTS * count; at += sizeof part / sizeof *part) {
-        const size_t left = RT_TALLY_COMPONENTS * count - at;
-        const size_t n = left < sizeof part / sizeof *part ? left : sizeof part / sizeof *part;
-        if (!RT_CL(clEnqueueReadBuffer(r->queue, r->tile[BUFFER_TALLIES], CL_TRUE,
-                                       at * sizeof *part, n * sizeof *part, part, 0, NULL, NULL),
-                   status))
-            return false;
-        for (size_t i = 0; i < n; ++i)
-            sums[(at + i) / count] += part[i];
-    }
+    cl_ulong sums[RT_TALLY_COMPONENTS] = {0};
+    cl_int error = CL_SUCCESS;
+    const cl_ulong *tallies =
+        clEnqueueMapBuffer(r->queue, r->tile[BUFFER_TALLIES], CL_TRUE, CL_MAP_READ, 0,
+                           RT_TALLY_COMPONENTS * count * sizeof *tallies, 0, NULL, NULL, &error);
+    if (!RT_CL_MADE(error, "clEnqueueMapBuffer", status))
+        return false;
+    for (size_t c = 0; c < RT_TALLY_COMPONENTS; ++c)
+        for (size_t i = 0; i < count; ++i)
+            sums[c] += tallies[c * count + i];
+    if (!RT_CL(clEnqueueUnmapMemObject(r->queue, r->tile[BUFFER_TALLIES], (void *)tallies, 0, NULL,
+                                       NULL),
+               status))
+        return false;
     r->times.shadow_rays = sums[RT_TALLY_SHADOW];
     r->times.occlusion_rays = sums[RT_TALLY_AMBIENT];
     r->times.cut_rays = sums[RT_TALLY_CUT];

@@ -11,7 +11,7 @@ bool rt_passes_start(rt_renderer *renderer, const rt_tile *tile, const rt_sample
                      rt_image *image, flight *f, const rt_watch *watch, double done, double share,
                      rt_status *status);
 
-/* Brings the times' counts of probes up to date. */
+/* Brings what the times count of rays by RT_TALLY_... up to date. */
 bool rt_passes_read_tallies(rt_renderer *renderer, rt_status *status);
 
 #endif
