@@ -228,6 +228,7 @@ static void slivers(void **state)
             p[6 + k] = p[k] + along * (p[3 + k] - p[k]) + off * test_random_float(&random, -1, 1);
         add_triangle(&scene, p);
     }
+    scene.accuracy = RT_ACCURACY_STANDARD;
     assert_equals_brute_force(&scene, true);
 }
 
@@ -363,6 +364,8 @@ static void a_wrong_walk_is_noticed(void **state)
                 p[6 + k] = (p[k] + p[3 + k]) / 2 + 1e-6f * test_random_float(&random, -1, 1);
             add_triangle(&scene, p);
         }
+        /* The level whose t of a sliver is off by far: robust is seldom out of the box. */
+        scene.accuracy = RT_ACCURACY_STANDARD;
         /* Aimed at the slivers, so that many are met. */
         fill_rays(rays, 7);
         for (int i = 0; i < RAYS; ++i) {
