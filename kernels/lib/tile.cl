@@ -6,16 +6,20 @@ typedef struct pixel {
     int inside;      /* 0 where a block hangs over the tile's edge */
 } pixel;
 
-INLINE pixel tile_pixel(rt_tile tile)
+/* Of place `i` of a block. */
+INLINE pixel block_pixel(rt_tile tile, int block, int i)
 {
     const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;
-    const int block = (int)get_group_id(0);
-    const int local_id = (int)get_local_id(0);
     pixel p;
-    p.column = block % blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(local_id);
-    p.row = block / blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_ROW(local_id);
+    p.column = block % blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(i);
+    p.row = block / blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_ROW(i);
     p.inside = (p.column < tile.width) & (p.row < tile.height);
     return p;
+}
+
+INLINE pixel tile_pixel(rt_tile tile)
+{
+    return block_pixel(tile, (int)get_group_id(0), (int)get_local_id(0));
 }
 
 /* Where a pixel's colour is in the tile's rows, whose components lie side by side. */
@@ -24,17 +28,11 @@ INLINE size_t picture_place(rt_tile tile, pixel p)
     return ((size_t)p.row * (size_t)tile.width + (size_t)p.column) * RT_COLOR_COMPONENTS;
 }
 
-/* The pixel of any place in the tile's arrays. */
-INLINE pixel slot_pixel(rt_tile tile, int slot)
+/* The random numbers of the pixel of any place in the tile's arrays. */
+INLINE uint sequence_at(rt_tile tile, int slot, uint seed, uint purpose, int bounce)
 {
-    const int blocks_per_row = (tile.width + RT_BLOCK_SIDE - 1) / RT_BLOCK_SIDE;
-    const int block = slot / RT_BLOCK_RAYS;
-    const int local_id = slot % RT_BLOCK_RAYS;
-    pixel p;
-    p.column = block % blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_COLUMN(local_id);
-    p.row = block / blocks_per_row * RT_BLOCK_SIDE + RT_BLOCK_ROW(local_id);
-    p.inside = (p.column < tile.width) & (p.row < tile.height);
-    return p;
+    const pixel p = block_pixel(tile, slot / RT_BLOCK_RAYS, slot % RT_BLOCK_RAYS);
+    return sequence_of(seed, tile.x + p.column, tile.y + p.row, purpose, bounce);
 }
 
 /* Where a loop does not become one of vectors, that is no mistake. */

@@ -165,25 +165,21 @@ INLINE void part_light(vec3 d, const surface *s, __global const rt_material *m, 
 INLINE int choose(number *mirrored, number *bent, number tint, int bounce, number u, number v)
 {
     const number least = RT_WEIGHT_LEAST, quantum = RT_QUANTUM(bounce);
-    number all = *mirrored + *bent;
-    number a = *mirrored * tint, b = *bent * tint;
+    const number all = *mirrored + *bent, seen = all * tint;
+    const number a = *mirrored * tint, b = *bent * tint;
     /* Not 0, by half a step of u. */
     const number chance = u + (number)0x1p-25f;
-    if (!(all * tint >= least)) {
-        if (!(chance * least < all * tint))
-            return 0;
+    const int is_least = !(seen >= least);
+    if (is_least && !(chance * least < seen))
+        return 0;
+    if (is_least || !(seen >= (number)2.0f * quantum) || !(a > 0.0f) || !(b > 0.0f)) {
         const int is_mirrored = v * all < *mirrored;
-        all = DIVIDE_1(least, tint);
-        *mirrored = is_mirrored ? all : (number)0.0f;
-        *bent = is_mirrored ? (number)0.0f : all;
-    } else if (!(all * tint >= (number)2.0f * quantum) || !(a > 0.0f) || !(b > 0.0f)) {
-        const int is_mirrored = v * all < *mirrored;
-        *mirrored = is_mirrored ? all : (number)0.0f;
-        *bent = is_mirrored ? (number)0.0f : all;
+        const number one = is_least ? DIVIDE_1(least, tint) : all;
+        *mirrored = is_mirrored ? one : (number)0.0f;
+        *bent = is_mirrored ? (number)0.0f : one;
     } else if (a < quantum || b < quantum) {
         const int mirrored_is_less = a < b;
-        const number less = mirrored_is_less ? a : b;
-        const int is_followed = chance * quantum < less;
+        const int is_followed = chance * quantum < (mirrored_is_less ? a : b);
         const number small = is_followed ? DIVIDE_1(quantum, tint) : (number)0.0f;
         *mirrored = mirrored_is_less ? small : all - small;
         *bent = mirrored_is_less ? all - small : small;
@@ -231,10 +227,8 @@ rt_next(TRACED_PARAMETERS, const rt_tile tile, const rt_turn turn, const uint se
                 (ulong)((mirrored + bent) * tint * (number)(1.0f / RT_CUT_UNIT));
             mirrored = bent = 0.0f;
         } else if (mirrored + bent > (number)0.0f) {
-            const pixel at = slot_pixel(tile, slot);
             number u, v;
-            sample_point(sequence_of(seed, tile.x + at.column, tile.y + at.row, RT_PURPOSE_ROUTE,
-                                     from.bounce),
+            sample_point(sequence_at(tile, slot, seed, RT_PURPOSE_ROUTE, from.bounce),
                          (uint)turn.sample, &u, &v);
             if (!choose(&mirrored, &bent, tint, from.bounce, u, v)) {
                 tallies[RT_TALLY_ENDED * step + i] += 1;

@@ -33,11 +33,8 @@ INLINE void disk_sample(const probe_set *p, size_t step, size_t i, number *x, nu
 {
     const int slot = RT_NEXT ? p->home[i] : (int)i;
     const int bounce = RT_NEXT ? p->marks[RT_MARK_BOUNCE * step + (size_t)slot] : 0;
-    const pixel at = slot_pixel(p->tile, slot);
-    const uint sequence =
-        sequence_of(p->seed, p->tile.x + at.column, p->tile.y + at.row, p->purpose, bounce);
     number u, v;
-    sample_point(sequence, p->index, &u, &v);
+    sample_point(sequence_at(p->tile, slot, p->seed, p->purpose, bounce), p->index, &u, &v);
     disk(u, v, x, y);
 }
 
