@@ -53,19 +53,11 @@ bool rt_action_study(rt_run *r)
     return good;
 }
 
-static bool keep_going(void *context, double done)
-{
-    (void)context;
-    (void)done;
-    return !rt_signals_have_come();
-}
-
 /* REPORT.json is REPORT, whose other files are made anew. */
 bool rt_action_plot(rt_run *r)
 {
     rt_study study = {0};
     rt_study_report report;
-    const rt_watch watch = {keep_going, NULL};
     rt_signals_catch();
     rt_study_report_init(&report);
     char *name = strdup(r->options.plot);
@@ -74,7 +66,7 @@ bool rt_action_plot(rt_run *r)
     name[strlen(name) - strlen(RT_PLOT_ENDING)] = '\0';
     const bool good = rt_study_read_json(&study, r->options.plot, &r->status) &&
                       rt_study_report_open(&report, name, true, &r->status) &&
-                      rt_study_report_write(&report, &study, NULL, &watch, &r->status);
+                      rt_study_report_write(&report, &study, NULL, &rt_signals_watch, &r->status);
     if (good) {
         rt_run_warn(r);
         rt_study_report_tell(&report, &study, stdout);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/options_check.h"
 #include "common/number.h"
 #include "render/renderer.h"
 #include "scene/scene.h"
@@ -235,8 +236,6 @@ static const struct row {
 #define ROWS (sizeof rows / sizeof *rows)
 /* Where the lines of --help about an option begin. */
 #define HELP_COLUMN 23
-/* Room for the list of the formats of pictures. */
-#define FORMATS_SIZE 200
 
 static void print_row(const struct row *row, FILE *out)
 {
@@ -257,7 +256,7 @@ static void print_row(const struct row *row, FILE *out)
 
 void rt_options_help(FILE *out)
 {
-    char formats[FORMATS_SIZE];
+    char formats[RT_IMAGE_FORMATS_LIST_SIZE];
     rt_image_formats_list("", formats, sizeof formats);
     fprintf(
         out,
@@ -278,128 +277,6 @@ void rt_options_help(FILE *out)
           "that does not build, 4 output cannot be written, 5 --verify found a difference\n"
           "or pixels that are not finite, 130 interrupted.\n",
           out);
-}
-
-static bool fail_usage(rt_status *status, const char *message, const char *what)
-{
-    return rt_status_fail(status, RT_ERROR_USAGE, "rt: %s%s; try 'rt --help'", message, what);
-}
-
-/* A list of devices: no empty place in it, and none that is not a device. */
-static bool check_devices(const char *text, rt_status *status)
-{
-    if (!strchr(text, ','))
-        return true;
-    for (const char *next = text; next;) {
-        next += strspn(next, " ");
-        const size_t length = strcspn(next, ",");
-        if (length == 0)
-            return rt_status_fail(status, RT_ERROR_USAGE,
-                                  "rt: found '%s'; --device takes a name or index on each side of "
-                                  "a comma",
-                                  text);
-        if ((length == 6 && strncasecmp(next, "scalar", length) == 0) ||
-            (length == 13 && strncasecmp(next, "scalar-double", length) == 0))
-            return fail_usage(status, "the scalar path renders alone, not as in --device ", text);
-        if (length == 3 && strncasecmp(next, "all", length) == 0)
-            return fail_usage(status, "all devices cannot be part of a list: --device ", text);
-        next = next[length] ? next + length + 1 : NULL;
-    }
-    return true;
-}
-
-/* A study is of devices, at levels and counts of samples of its own, and writes its own files. */
-static bool check_study(const rt_options *o, rt_status *status)
-{
-    if (!o->study)
-        return !o->has_plan ||
-               fail_usage(status, "--study-levels, -repeats and -samples go with --study", "");
-    if (o->output)
-        return fail_usage(status, "--study writes no picture, so there is no place for ",
-                          o->output);
-    if (o->verify || o->hits || o->stats)
-        return fail_usage(status, "--study does not go with --verify, --hits or --stats", "");
-    if (o->has_accuracy)
-        return fail_usage(status, "--study takes --study-levels in the place of --accuracy", "");
-    if (o->target != RT_TARGET_DEVICE)
-        return fail_usage(status, "--study holds a device against the scalar path; choose one", "");
-    return true;
-}
-
-/* --explain measures one device, and draws nothing that is kept. */
-static bool check_explain(const rt_options *o, rt_status *status)
-{
-    if (o->no_cost && !o->explain)
-        return fail_usage(status, "--no-cost is for --explain", "");
-    if (!o->explain)
-        return true;
-    if (o->output || o->verify || o->hits || o->study)
-        return fail_usage(status, "--explain renders no picture to keep, compare or study", "");
-    if (o->effects == RT_EFFECTS_ALL)
-        return fail_usage(status, "--explain is of the scene's own effects, not of all", "");
-    if (!o->no_cost && o->target != RT_TARGET_DEVICE)
-        return fail_usage(status, "--explain measures an OpenCL device, or nothing: --no-cost", "");
-    return true;
-}
-
-/* --seconds and --error add samples to a picture on devices. */
-static bool check_refinement(const rt_options *o, rt_status *status)
-{
-    if (!(o->seconds > 0.0) && !(o->error > 0.0))
-        return true;
-    if (o->study || o->explain)
-        return fail_usage(status, "--seconds and --error are for one picture", "");
-    return o->target == RT_TARGET_DEVICE ||
-           fail_usage(status, "--seconds and --error are for OpenCL devices", "");
-}
-
-/* --plot needs a file and nothing else. */
-static bool check_plot(rt_options *o, rt_status *status)
-{
-    if (o->scene || o->study || o->has_plan || o->explain || o->verify || o->hits || o->stats)
-        return fail_usage(status, "--plot reads what a study has found, and renders nothing", "");
-    o->action = RT_ACTION_PLOT;
-    return true;
-}
-
-/* What options mean together. */
-static bool check(rt_options *o, rt_status *status)
-{
-    if (o->plot)
-        return check_plot(o, status);
-    if (!o->scene)
-        return fail_usage(status, "no scene is given", "");
-    if (!check_study(o, status))
-        return false;
-    if (!check_explain(o, status))
-        return false;
-    if (!check_refinement(o, status))
-        return false;
-    if (!o->output && !o->verify && !o->hits && !o->stats && !o->study && !o->explain)
-        return fail_usage(status, "no output is given", "");
-    if (o->format && !o->output)
-        return fail_usage(status, "--format is of the picture, and none is to be written", "");
-    if (o->quiet)
-        o->progress = RT_PROGRESS_NEVER;
-    if (o->output && !o->format) {
-        char formats[FORMATS_SIZE];
-        rt_image_formats_list(".", formats, sizeof formats);
-        return rt_status_fail(status, RT_ERROR_USAGE, "rt: '%s' does not end in %s", o->output,
-                              formats);
-    }
-    const char *const outputs[] = {o->output, o->hits, o->stats};
-    int to_stdout = 0;
-    for (size_t i = 0; i < 3; ++i)
-        to_stdout += outputs[i] && strcmp(outputs[i], "-") == 0;
-    if (to_stdout > 1 || (to_stdout == 1 && o->verify))
-        return fail_usage(status, "only one thing can go to standard output", "");
-    if (o->device && !check_devices(o->device, status))
-        return false;
-    if (o->verify && o->target != RT_TARGET_DEVICE)
-        return fail_usage(status, "--verify holds a device against the scalar path; choose one",
-                          "");
-    o->action = o->explain ? RT_ACTION_EXPLAIN : o->study ? RT_ACTION_STUDY : RT_ACTION_RENDER;
-    return true;
 }
 
 /* The rows as getopt_long takes them; its code for a row is the row's letter or this much and the
@@ -449,16 +326,16 @@ bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *stat
         if (code == -1)
             break;
         if (code == ':')
-            return fail_usage(status, "a value is missing after ", argv[optind - 1]);
+            return rt_usage_fail(status, "a value is missing after ", argv[optind - 1]);
         if (code == '?')
-            return fail_usage(status, "cannot make sense of ", argv[optind - 1]);
+            return rt_usage_fail(status, "cannot make sense of ", argv[optind - 1]);
         if (!read_option(options, code, optarg, status))
             return false;
         if (options->action != RT_ACTION_RENDER)
             return true;
     }
     if (argc - optind > 2)
-        return fail_usage(status, "one argument too many: ", argv[optind + 2]);
+        return rt_usage_fail(status, "one argument too many: ", argv[optind + 2]);
     if (optind < argc)
         options->scene = argv[optind];
     if (optind + 1 < argc) {
@@ -466,5 +343,5 @@ bool rt_options_read(rt_options *options, int argc, char **argv, rt_status *stat
         if (!options->format)
             options->format = rt_image_format_of(options->output);
     }
-    return check(options, status);
+    return rt_options_check(options, status);
 }

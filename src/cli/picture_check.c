@@ -17,27 +17,19 @@ static bool has_hits(const rt_image *image)
     return false;
 }
 
-static bool not_stopped(void *context, double done)
-{
-    (void)context;
-    (void)done;
-    return !rt_signals_have_come();
-}
-
 /* Draws the picture again, on the first device and with the kernels that are there. */
 static bool draw_hits(rt_run *r, rt_image *image)
 {
     const rt_render_options options = {
         .lanes = r->options.lanes, .with_hits = true, .effects = &r->effects};
     const rt_bvh *tree = r->options.accel == RT_ACCEL_NONE ? NULL : &r->bvh;
-    const rt_watch watch = {not_stopped, NULL};
     rt_scene scene = r->scene; /* its arrays are shared */
     if (scene.samples > SAMPLES_MOST)
         scene.samples = SAMPLES_MOST;
     if (!rt_image_init(image, scene.width, scene.height, true, &r->status))
         return false;
     rt_renderer *renderer = rt_renderer_new(r->chosen[0], &scene, tree, &options, &r->status);
-    const bool good = renderer && rt_renderer_draw(renderer, image, &watch, &r->status);
+    const bool good = renderer && rt_renderer_draw(renderer, image, &rt_signals_watch, &r->status);
     rt_renderer_free(renderer);
     return good;
 }

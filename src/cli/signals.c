@@ -29,3 +29,12 @@ bool rt_signals_have_come(void)
 {
     return was_interrupted;
 }
+
+static bool keep_going(void *context, double done)
+{
+    (void)context;
+    (void)done;
+    return !was_interrupted;
+}
+
+const rt_watch rt_signals_watch = {keep_going, NULL};

@@ -72,12 +72,17 @@ uint8_t *rt_encode_8(const rt_image *image, const rt_encoding *encoding, rt_stat
         rt_status_no_memory(status, "the picture");
         return NULL;
     }
+    if (!is_srgb) {
+        for (size_t i = 0; i < count; ++i)
+            steps[i] = rt_image_step(scale * image->rgb[i]);
+        return steps;
+    }
     curve s;
     make_curve(&s);
     for (size_t i = 0; i < count; ++i) {
         const float c = clamp(scale * image->rgb[i]);
         const uint8_t least = s.steps[(int)(BUCKETS * c)];
-        steps[i] = is_srgb ? (uint8_t)(least + (c >= s.begins[least + 1])) : rt_image_step(c);
+        steps[i] = (uint8_t)(least + (c >= s.begins[least + 1]));
     }
     return steps;
 }

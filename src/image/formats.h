@@ -37,6 +37,9 @@ const rt_image_format *rt_image_format_of(const char *path);
 /* The format of that name, in any case; NULL for none. */
 const rt_image_format *rt_image_format_named(const char *name);
 
+/* Room for either list. */
+#define RT_IMAGE_FORMATS_LIST_SIZE 200
+
 /* Writes the formats' extensions, each behind `before`, such as ".png, .bmp or .hdr", to
  * text[0..size). */
 void rt_image_formats_list(const char *before, char *text, size_t size);

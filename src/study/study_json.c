@@ -11,6 +11,10 @@
 /* What stands for a level where the reference is meant. */
 #define REFERENCE "reference"
 
+/* Of a count of samples: study->sampling. */
+static const rt_field sampling_fields[] = {{"reference_against_converged", RT_FIELD_ERROR, 0},
+                                           {NULL, RT_FIELD_INT, 0}};
+
 static const char *name_of(enum rt_accuracy level)
 {
     return level == RT_ACCURACY_COUNT ? REFERENCE : rt_accuracy_name(level);
@@ -46,11 +50,9 @@ static json_t *cell_json(const rt_study *study, size_t sample, size_t entry)
 
 static json_t *count_json(const rt_study *study, size_t sample)
 {
-    static const rt_field error[] = {{"reference_against_converged", RT_FIELD_ERROR, 0},
-                                     {NULL, RT_FIELD_INT, 0}};
     json_t *json = json_pack("{s:i,s:i}", "samples", study->plan.samples[sample], "rounds",
                              study->rounds[sample]);
-    rt_fields_write(json, error, &study->sampling[sample]);
+    rt_fields_write(json, sampling_fields, &study->sampling[sample]);
     return json;
 }
 
@@ -185,8 +187,6 @@ static bool read_entries(const reading *r, const json_t *array)
 
 static bool read_counts(const reading *r, const json_t *array)
 {
-    static const rt_field error[] = {{"reference_against_converged", RT_FIELD_ERROR, 0},
-                                     {NULL, RT_FIELD_INT, 0}};
     static const rt_field numbers[] = {{"samples", RT_FIELD_INT, 0},
                                        {"rounds", RT_FIELD_INT, sizeof(int)},
                                        {NULL, RT_FIELD_INT, 0}};
@@ -199,7 +199,7 @@ static bool read_counts(const reading *r, const json_t *array)
         int both[2];
         const json_t *json = json_array_get(array, i);
         if (!read_fields(r, json, numbers, both, "counts") ||
-            !read_fields(r, json, error, &study->sampling[i], "counts"))
+            !read_fields(r, json, sampling_fields, &study->sampling[i], "counts"))
             return false;
         study->plan.samples[i] = both[0];
         study->rounds[i] = both[1];

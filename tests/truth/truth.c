@@ -274,7 +274,7 @@ static void tell(FILE *out, const truth_row *row, const truth_figures *device,
 {
     fprintf(out, "| %s | ", row->name);
     if (row->most)
-        fprintf(out, "1, 2 .. %d |", row->most);
+        fprintf(out, "powers of 2 to %d |", row->most);
     else
         fprintf(out, "all |");
     if (device)
