@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-#include "common/vec3.h"
 #include "scene/camera.h"
+#include "scene/places.h"
 
 /* What a ray that hits nothing brings, as the pixel's place has it. */
 typedef struct backdrop {
@@ -13,11 +13,6 @@ typedef struct backdrop {
     int width, height;
     double tolerance[3];
 } backdrop;
-
-static vec3 vec3_of_scene(rt_vec3 v)
-{
-    return (vec3){(double)v.x, (double)v.y, (double)v.z};
-}
 
 static double hundredth(double component, double rise, double reach)
 {

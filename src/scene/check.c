@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "common/vec3.h"
 #include "scene/enclosure.h"
+#include "scene/places.h"
 
 /* Room for "file:line:1". */
 #define PLACE_SIZE 4200
@@ -32,12 +32,6 @@ static const char *name_point(const rt_scene *scene, vec3 p, char text[POINT_SIZ
     return text;
 }
 
-static vec3 eye_of(const rt_scene *scene)
-{
-    const rt_vec3 from = scene->camera.from;
-    return (vec3){(double)from.x, (double)from.y, (double)from.z};
-}
-
 /* What to add where light is missing: at the eye it lights all that is seen. */
 static void warn_of_light(const rt_scene *scene, const char *what, rt_status *status)
 {
@@ -45,7 +39,8 @@ static void warn_of_light(const rt_scene *scene, const char *what, rt_status *st
     rt_status_warn(status,
                    "%s: warning: %s: add 'ambient 0.2 0.2 0.2' or a light, such as one at the "
                    "eye, 'light point at %s'",
-                   name_place(scene, nowhere, place), what, name_point(scene, eye_of(scene), eye));
+                   name_place(scene, nowhere, place), what,
+                   name_point(scene, vec3_of_scene(scene->camera.from), eye));
 }
 
 void rt_scene_warn_of_black(const rt_scene *scene, rt_status *status)
@@ -129,28 +124,28 @@ bool rt_scene_check(const rt_scene *scene, const rt_effects *effects, int *count
     return true;
 }
 
+static void take_in(vec3 *lo, vec3 *hi, vec3 p)
+{
+    *lo = (vec3){fmin(lo->x, p.x), fmin(lo->y, p.y), fmin(lo->z, p.z)};
+    *hi = (vec3){fmax(hi->x, p.x), fmax(hi->y, p.y), fmax(hi->z, p.z)};
+}
+
 /* The box of all primitives. */
 static void find_box(const rt_scene *scene, vec3 *lo, vec3 *hi)
 {
     *lo = (vec3){INFINITY, INFINITY, INFINITY};
     *hi = (vec3){-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < scene->sphere_count; ++i) {
-        const rt_sphere *s = &scene->spheres[i];
-        const double r = (double)s->radius;
-        *lo = (vec3){fmin(lo->x, (double)s->cx - r), fmin(lo->y, (double)s->cy - r),
-                     fmin(lo->z, (double)s->cz - r)};
-        *hi = (vec3){fmax(hi->x, (double)s->cx + r), fmax(hi->y, (double)s->cy + r),
-                     fmax(hi->z, (double)s->cz + r)};
+        const vec3 c = rt_sphere_center(&scene->spheres[i]);
+        const double r = (double)scene->spheres[i].radius;
+        take_in(lo, hi, (vec3){c.x - r, c.y - r, c.z - r});
+        take_in(lo, hi, (vec3){c.x + r, c.y + r, c.z + r});
     }
     for (size_t i = 0; i < scene->triangle_count; ++i) {
-        const rt_triangle *t = &scene->triangles[i];
-        const float corners[3][3] = {
-            {t->ax, t->ay, t->az}, {t->bx, t->by, t->bz}, {t->cx, t->cy, t->cz}};
-        for (int k = 0; k < 3; ++k) {
-            const vec3 c = vec3_of(corners[k]);
-            *lo = (vec3){fmin(lo->x, c.x), fmin(lo->y, c.y), fmin(lo->z, c.z)};
-            *hi = (vec3){fmax(hi->x, c.x), fmax(hi->y, c.y), fmax(hi->z, c.z)};
-        }
+        vec3 corners[3];
+        rt_triangle_corners(&scene->triangles[i], corners);
+        for (int k = 0; k < 3; ++k)
+            take_in(lo, hi, corners[k]);
     }
 }
 

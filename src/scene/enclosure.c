@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/vec3.h"
 #include "scene/inside.h"
+#include "scene/places.h"
 
 /* A mesh is taken for closed where it covers so much of all directions. */
 #define CLOSED 0.99
@@ -16,12 +16,6 @@ typedef struct body {
     const rt_sphere *sphere; /* or NULL: the triangles of `material` */
     int32_t material;
 } body;
-
-static bool is_in_sphere(const rt_sphere *s, vec3 p)
-{
-    const vec3 d = {(double)s->cx - p.x, (double)s->cy - p.y, (double)s->cz - p.z};
-    return vec3_dot(d, d) < (double)s->radius * (double)s->radius;
-}
 
 static bool is_opaque(const rt_scene *scene, int32_t material)
 {
@@ -36,27 +30,19 @@ static bool is_seen_from_inside(const rt_scene *scene, double winding)
     return sign == 0 || (winding > 0.0 ? sign < 0 : sign > 0);
 }
 
-/* Winding numbers about a point, by material; NULL after an error. */
-static double *windings_about(const rt_scene *scene, vec3 p, rt_status *status)
-{
-    const double point[3] = {p.x, p.y, p.z};
-    return rt_scene_windings(scene, point, status);
-}
-
 /* Spheres first, so that what windings tell of a material later is of its triangles. False after an
  * error; *found tells. */
 static bool find_body(const rt_scene *scene, body *b, bool *found, rt_status *status)
 {
-    const rt_vec3 from = scene->camera.from;
-    const vec3 eye = {(double)from.x, (double)from.y, (double)from.z};
+    const vec3 eye = vec3_of_scene(scene->camera.from);
     *found = false;
     for (size_t i = 0; i < scene->sphere_count && !*found; ++i) {
         *b = (body){&scene->spheres[i], scene->sphere_materials[i]};
-        *found = is_opaque(scene, b->material) && is_in_sphere(b->sphere, eye);
+        *found = is_opaque(scene, b->material) && rt_sphere_holds(b->sphere, eye);
     }
     if (*found || scene->triangle_count == 0)
         return true;
-    double *windings = windings_about(scene, eye, status);
+    double *windings = rt_scene_windings(scene, eye, status);
     for (size_t i = 0; windings && i < scene->material_count && !*found; ++i) {
         *b = (body){NULL, (int32_t)i};
         *found = is_opaque(scene, b->material) && fabs(windings[i]) > CLOSED &&
@@ -69,9 +55,9 @@ static bool find_body(const rt_scene *scene, body *b, bool *found, rt_status *st
 static bool is_in_body(const rt_scene *scene, const body *b, vec3 p)
 {
     if (b->sphere)
-        return is_in_sphere(b->sphere, p);
+        return rt_sphere_holds(b->sphere, p);
     rt_status ignored = RT_STATUS_INIT;
-    double *windings = windings_about(scene, p, &ignored);
+    double *windings = rt_scene_windings(scene, p, &ignored);
     const bool inside = windings && fabs(windings[b->material]) > CLOSED;
     free(windings);
     rt_status_clear(&ignored);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "common/vec3.h"
+#include "scene/places.h"
 
 #define PI 3.14159265358979323846
 
@@ -29,12 +29,10 @@ static void widen(extent *box, const rt_triangle *t)
     widen_axis(box, 2, t->az, t->bz, t->cz);
 }
 
-static bool holds(const extent *box, const double point[3])
+static bool holds(const extent *box, vec3 p)
 {
-    for (int i = 0; i < 3; ++i)
-        if (!(point[i] >= (double)box->lo[i] && point[i] <= (double)box->hi[i]))
-            return false;
-    return true;
+    return p.x >= (double)box->lo[0] && p.x <= (double)box->hi[0] && p.y >= (double)box->lo[1] &&
+           p.y <= (double)box->hi[1] && p.z >= (double)box->lo[2] && p.z <= (double)box->hi[2];
 }
 
 /* The solid angle of a triangle as seen from the origin, positive where its corners run clockwise
@@ -47,25 +45,23 @@ static double solid_angle(vec3 a, vec3 b, vec3 c)
     return 2.0 * atan2(vec3_dot(a, vec3_cross(b, c)), below);
 }
 
-static double winding_of(const rt_triangle *t, const double p[3])
+static double winding_of(const rt_triangle *t, vec3 p)
 {
-    const vec3 a = {(double)t->ax - p[0], (double)t->ay - p[1], (double)t->az - p[2]};
-    const vec3 b = {(double)t->bx - p[0], (double)t->by - p[1], (double)t->bz - p[2]};
-    const vec3 c = {(double)t->cx - p[0], (double)t->cy - p[1], (double)t->cz - p[2]};
-    return solid_angle(a, b, c) / (4.0 * PI);
+    vec3 c[3];
+    rt_triangle_corners(t, c);
+    for (int i = 0; i < 3; ++i)
+        c[i] = vec3_plus(c[i], -1.0, p);
+    return solid_angle(c[0], c[1], c[2]) / (4.0 * PI);
 }
 
-static void add_spheres(double *windings, const rt_scene *scene, const double p[3])
+static void add_spheres(double *windings, const rt_scene *scene, vec3 p)
 {
-    for (size_t i = 0; i < scene->sphere_count; ++i) {
-        const rt_sphere *s = &scene->spheres[i];
-        const vec3 d = {(double)s->cx - p[0], (double)s->cy - p[1], (double)s->cz - p[2]};
-        if (vec3_dot(d, d) < (double)s->radius * (double)s->radius)
+    for (size_t i = 0; i < scene->sphere_count; ++i)
+        if (rt_sphere_holds(&scene->spheres[i], p))
             windings[scene->sphere_materials[i]] += 1.0;
-    }
 }
 
-static void add_triangles(double *windings, extent *boxes, const rt_scene *scene, const double p[3])
+static void add_triangles(double *windings, extent *boxes, const rt_scene *scene, vec3 p)
 {
     for (size_t i = 0; i < scene->material_count; ++i)
         boxes[i] = (extent){{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
@@ -84,7 +80,7 @@ static void add_triangles(double *windings, extent *boxes, const rt_scene *scene
     }
 }
 
-double *rt_scene_windings(const rt_scene *scene, const double point[3], rt_status *status)
+double *rt_scene_windings(const rt_scene *scene, vec3 point, rt_status *status)
 {
     /* One more than there are, so that a scene without materials is no lack of memory. */
     double *windings = calloc(scene->material_count + 1, sizeof *windings);

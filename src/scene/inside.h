@@ -3,6 +3,7 @@
 #define RT_SCENE_INSIDE_H
 
 #include "common/status.h"
+#include "common/vec3.h"
 #include "scene/scene.h"
 
 /* For each material of the scene, in its order, how often `point` (in the scene's unit of length)
@@ -17,6 +18,6 @@
  * From malloc, material_count numbers; NULL after an error. It takes some 0.1 microseconds a
  * triangle of the materials in whose box the point is, and a fifth of that for others.
  */
-double *rt_scene_windings(const rt_scene *scene, const double point[3], rt_status *status);
+double *rt_scene_windings(const rt_scene *scene, vec3 point, rt_status *status);
 
 #endif

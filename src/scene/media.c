@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "common/vec3.h"
 #include "scene/inside.h"
+#include "scene/places.h"
 
 /* The number of a medium, which joins the list where it is new. */
 static int32_t number_of(rt_media *media, rt_medium medium)
@@ -56,8 +56,7 @@ static void add_way_out(ways_out *w, double t, int32_t material)
 
 static void look_at_sphere(ways_out *w, const rt_sphere *s, int32_t material)
 {
-    const vec3 center = {(double)s->cx, (double)s->cy, (double)s->cz};
-    const vec3 to_eye = vec3_plus(w->eye, -1.0, center);
+    const vec3 to_eye = vec3_plus(w->eye, -1.0, rt_sphere_center(s));
     const double b = vec3_dot(to_eye, w->view);
     const double c = vec3_dot(to_eye, to_eye) - (double)s->radius * (double)s->radius;
     if (c < 0.0)
@@ -69,10 +68,10 @@ static void look_at_sphere(ways_out *w, const rt_sphere *s, int32_t material)
 #define EDGE_MARGIN 1e-9
 static void look_at_triangle(ways_out *w, const rt_triangle *triangle, int32_t material)
 {
-    const float *f = (const float *)triangle;
-    const vec3 a = vec3_of(f), b = vec3_of(f + 3), c = vec3_of(f + 6);
-    const vec3 e1 = vec3_plus(b, -1.0, a), e2 = vec3_plus(c, -1.0, a);
-    const vec3 p = vec3_cross(w->view, e2), from_a = vec3_plus(w->eye, -1.0, a);
+    vec3 c[3];
+    rt_triangle_corners(triangle, c);
+    const vec3 e1 = vec3_plus(c[1], -1.0, c[0]), e2 = vec3_plus(c[2], -1.0, c[0]);
+    const vec3 p = vec3_cross(w->view, e2), from_a = vec3_plus(w->eye, -1.0, c[0]);
     const double det = vec3_dot(e1, p);
     const vec3 q = vec3_cross(from_a, e1);
     const double u = vec3_dot(from_a, p) / det, v = vec3_dot(w->view, q) / det;
@@ -112,10 +111,8 @@ bool rt_media_find(rt_media *media, const rt_scene *scene, rt_status *status)
 {
     *media = (rt_media){.list = malloc((scene->material_count + 1) * sizeof *media->list),
                         .of = calloc(scene->material_count + 1, sizeof *media->of)};
-    const rt_vec3 from = scene->camera.from, at = scene->camera.at;
-    const double eye[3] = {(double)from.x, (double)from.y, (double)from.z};
-    ways_out w = {.eye = {eye[0], eye[1], eye[2]}};
-    w.view = vec3_unit(vec3_plus((vec3){(double)at.x, (double)at.y, (double)at.z}, -1.0, w.eye));
+    ways_out w = {.eye = vec3_of_scene(scene->camera.from)};
+    w.view = vec3_unit(vec3_plus(vec3_of_scene(scene->camera.at), -1.0, w.eye));
     if (!media->list || !media->of) {
         rt_media_clear(media);
         return rt_status_no_memory(status, "media");
@@ -123,7 +120,7 @@ bool rt_media_find(rt_media *media, const rt_scene *scene, rt_status *status)
     list_media(media, scene);
     if (media->count == 1)
         return true;
-    double *windings = rt_scene_windings(scene, eye, status);
+    double *windings = rt_scene_windings(scene, w.eye, status);
     if (windings)
         nest(media, scene, windings, &w);
     else

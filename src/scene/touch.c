@@ -3,8 +3,7 @@
 #include <math.h>
 
 #include "common/parallel.h"
-#include "common/vec3.h"
-#include "scene/scene.h"
+#include "scene/places.h"
 
 /* A primitive is at a point where it is nearer than this part of the coordinates of both: eight
  * half ulps, which is what float makes of where a ray meets it. */
@@ -25,7 +24,7 @@ static double length_of(vec3 a)
 
 static bool is_sphere_at(const rt_sphere *s, vec3 point)
 {
-    const vec3 center = {(double)s->cx, (double)s->cy, (double)s->cz};
+    const vec3 center = rt_sphere_center(s);
     const double radius = (double)s->radius;
     const double bound = TOUCH_BOUND * (size_of(center) + radius + size_of(point));
     return fabs(length_of(vec3_plus(point, -1.0, center)) - radius) <= bound;
@@ -62,9 +61,9 @@ static double distance_to_triangle(vec3 a, vec3 b, vec3 c, vec3 point)
 
 static bool is_triangle_at(const rt_triangle *t, vec3 point)
 {
-    const vec3 a = {(double)t->ax, (double)t->ay, (double)t->az};
-    const vec3 b = {(double)t->bx, (double)t->by, (double)t->bz};
-    const vec3 c = {(double)t->cx, (double)t->cy, (double)t->cz};
+    vec3 corners[3];
+    rt_triangle_corners(t, corners);
+    const vec3 a = corners[0], b = corners[1], c = corners[2];
     const double most = fmax(size_of(a), fmax(size_of(b), size_of(c)));
     const double bound = TOUCH_BOUND * (most + size_of(point));
     /* Nearly all are far away. */

@@ -2,17 +2,16 @@
 
 #include <math.h>
 
-#include "common/vec3.h"
 #include "kernels/layout.h"
+#include "scene/places.h"
 
 bool rt_triangle_is_degenerate(const rt_triangle *t)
 {
-    const vec3 a = {(double)t->ax, (double)t->ay, (double)t->az};
-    const vec3 b = {(double)t->bx, (double)t->by, (double)t->bz};
-    const vec3 c = {(double)t->cx, (double)t->cy, (double)t->cz};
+    vec3 c[3];
+    rt_triangle_corners(t, c);
     /* Products of two 25-bit differences are exact in double, so zero means zero, as long as the
      * corners' magnitudes are within 2^28 of each other. */
-    const vec3 normal = vec3_cross(vec3_plus(b, -1.0, a), vec3_plus(c, -1.0, a));
+    const vec3 normal = vec3_cross(vec3_plus(c[1], -1.0, c[0]), vec3_plus(c[2], -1.0, c[0]));
     return normal.x == 0.0 && normal.y == 0.0 && normal.z == 0.0;
 }
 

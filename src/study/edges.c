@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 #include "common/parallel.h"
-#include "common/vec3.h"
 #include "reference/scalar.h"
+#include "scene/places.h"
 #include "study/closed_mesh.h"
 #include "study/parts.h"
 
@@ -138,13 +138,6 @@ static void clear_colored(colored *c)
     rt_scene_clear(&c->scene);
 }
 
-static void corners_of(const rt_triangle *t, vec3 corners[3])
-{
-    corners[0] = (vec3){(double)t->ax, (double)t->ay, (double)t->az};
-    corners[1] = (vec3){(double)t->bx, (double)t->by, (double)t->bz};
-    corners[2] = (vec3){(double)t->cx, (double)t->cy, (double)t->cz};
-}
-
 static size_t pick(uint32_t index, uint32_t stream, size_t count)
 {
     return (size_t)(rt_study_random(index, stream) * (double)count);
@@ -154,7 +147,7 @@ static size_t pick(uint32_t index, uint32_t stream, size_t count)
 static rt_ray trial_ray(const rt_study_mesh *mesh, uint32_t index)
 {
     vec3 c[3];
-    corners_of(&mesh->triangles[pick(index / 2, 0, mesh->count)], c);
+    rt_triangle_corners(&mesh->triangles[pick(index / 2, 0, mesh->count)], c);
     const vec3 normal = vec3_cross(vec3_plus(c[1], -1.0, c[0]), vec3_plus(c[2], -1.0, c[0]));
     const double size = sqrt(sqrt(vec3_dot(normal, normal)));
     const double depth = (index % 2 ? 1.0 : -1.0) * START_DEPTH * size;
@@ -194,7 +187,7 @@ static rt_ray edge_ray(const rt_study_mesh *mesh, const rt_ray *starts, size_t s
                        uint32_t index)
 {
     vec3 c[3];
-    corners_of(&mesh->triangles[pick(index, 5, mesh->count)], c);
+    rt_triangle_corners(&mesh->triangles[pick(index, 5, mesh->count)], c);
     const size_t a = pick(index, 6, 3), b = (a + 1) % 3;
     const double f = 0.05 + 0.9 * rt_study_random(index, 7);
     float target[3];

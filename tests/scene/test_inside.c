@@ -14,7 +14,7 @@ static void assert_winding(const rt_scene *s, int material, double x, double y, 
                            double expected, double tolerance)
 {
     rt_status status = RT_STATUS_INIT;
-    const double point[3] = {x, y, z};
+    const vec3 point = {x, y, z};
     double *windings = rt_scene_windings(s, point, &status);
     assert_good(windings != NULL, &status);
     assert_near(windings[material], expected, tolerance);
@@ -117,7 +117,7 @@ static void nothing_has_no_inside(void **state)
     (void)state;
     rt_scene s;
     rt_status status = RT_STATUS_INIT;
-    const double point[3] = {0, 0, 0};
+    const vec3 point = {0, 0, 0};
     test_scene(&s, "");
     double *windings = rt_scene_windings(&s, point, &status);
     assert_good(windings != NULL, &status);
