@@ -73,8 +73,9 @@ static bool hold_naives(const hard_case *c, size_t figures, char cells[][256])
     for (size_t f = 0; f < figures; ++f)
         cells[f][0] = 0;
     for (int n = 0; n < HARD_NAIVES && c->naives[n]; ++n) {
-        const hard_way way = {hard_naive_name(c->naives[n]), RT_ACCURACY_STANDARD, c->naives[n],
-                              false};
+        const enum rt_accuracy level =
+            c->naives[n]->at_robust ? RT_ACCURACY_ROBUST : RT_ACCURACY_STANDARD;
+        const hard_way way = {hard_naive_name(c->naives[n]), level, c->naives[n], false};
         double values[HARD_FIGURES] = {0.0};
         bool is_caught = false;
         c->measure(&way, c->of, values);

@@ -17,6 +17,7 @@ typedef struct hard_naive {
     const char *name; /* NULL: the mutant's */
     hard_trace_fn *trace;
     test_mutant mutant;
+    bool at_robust; /* the mutant is of that level's kernels, else of standard's */
 } hard_naive;
 
 /* What answers: a level on the device, through the tree or by brute force; or a naive variant. */
