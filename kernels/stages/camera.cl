@@ -32,6 +32,7 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
           __global int *home, __global number *paths, __global int *marks, const rt_nesting nesting,
           __global const float *picture)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     const pixel p = tile_pixel(tile);
     const size_t i = get_global_id(0);
     const int x = tile.x + p.column, y = tile.y + p.row;

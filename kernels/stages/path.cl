@@ -197,6 +197,7 @@ rt_next(TRACED_PARAMETERS, const rt_tile tile, const rt_turn turn, const uint se
         __global int *marks, __global number *next_rays, __global int *next_home,
         __global number *waiting, __global int *waiting_marks, __global ulong *tallies)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
     const int is_alive = rays[RT_RAY_TMIN * step + i] < rays[RT_RAY_TMAX * step + i];

@@ -97,6 +97,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1)
 rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *lights,
                __global number *probes, PROBE_SET_PARAMETERS)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS / RT_ITEM_RAYS);
     const traced w = TRACED;
     __global const rt_light *light = lights + turn.light;
     PROBE_ITEM(turn);
@@ -143,6 +144,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1)
 rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
                 __global number *probes, PROBE_SET_PARAMETERS)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS / RT_ITEM_RAYS);
     const traced w = TRACED;
     PROBE_ITEM(turn);
     const probe_set set = PROBE_SET(RT_PURPOSE_AMBIENT, turn, crevice.samples);
@@ -163,6 +165,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_tally(const int stride, const rt_turn turn, const int light_count, __global const number *probes,
          __global const int *blocked, __global int *open, __global ulong *tallies)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
     __global int *row = open + (size_t)turn.light * step;

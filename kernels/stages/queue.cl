@@ -12,6 +12,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_count(const int stride, __global const number *next_rays, __global const int *next_home,
          __global const int *marks, __global int *counts)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     __local int on[RT_BLOCK_RAYS], bent[RT_BLOCK_RAYS];
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;
@@ -38,6 +39,7 @@ rt_pack(const int stride, const int total, __global const int *first,
         __global const number *next_rays, __global const int *next_home, __global number *rays,
         __global int *home)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     __local int on[RT_BLOCK_RAYS];
     const size_t i = get_global_id(0);
     const size_t step = (size_t)stride;

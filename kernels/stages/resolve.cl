@@ -4,6 +4,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
            __global float *picture, const rt_turn turn, const int flags)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     const pixel p = tile_pixel(tile);
     if (!p.inside)
         return;
@@ -22,6 +23,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_index,
                 __global const number *hit_array, __global int *records, const int unit_exponent)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS);
     const pixel p = tile_pixel(tile);
     if (!p.inside)
         return;

@@ -260,6 +260,7 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
          __global const int *home, __global number *paths, __global const int *marks,
          __global const rt_medium *media, const rt_nesting nesting, const int flags)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS / RT_ITEM_RAYS);
     const shading w = {
         .hits = TRACED,
         .material_of = material_of,

@@ -72,6 +72,7 @@ __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) 
 rt_trace(const int stride, __global const number *rays, WORLD_PARAMETERS, __global int *hit_index,
          __global int *hit_slot, __global number *hit_array)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS / RT_PACKET);
     const world w = WORLD;
     const size_t step = (size_t)stride;
     const size_t first = get_global_id(0) * RT_PACKET;
@@ -88,6 +89,7 @@ rt_trace(const int stride, __global const number *rays, WORLD_PARAMETERS, __glob
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
 rt_occlude(const int stride, __global const number *probes, WORLD_PARAMETERS, __global int *blocked)
 {
+    ASSUME_GROUP(RT_BLOCK_RAYS / RT_PACKET);
     const world w = WORLD;
     const size_t first = get_global_id(0) * RT_PACKET;
     packet p;

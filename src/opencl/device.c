@@ -104,6 +104,16 @@ static void pin_pocl_threads(void)
     setenv("POCL_AFFINITY", "1", 0);
 }
 
+/* How PoCL serves rt best, where the user has not said otherwise. The environment is its only ear. */
+static void suit_pocl(void)
+{
+    pin_pocl_threads();
+    /* Else it compiles every kernel for the size of its work-groups, again where the grid is large,
+     * and again for any size when the program's binary is asked for, to be kept. The kernels are as
+     * fast in this last form (ASSUME_GROUP), so that is the only one. */
+    setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+}
+
 static bool read_list(rt_device_list *list, rt_status *status)
 {
     *list = (rt_device_list){NULL, 0, 0};
@@ -127,7 +137,7 @@ static bool read_list(rt_device_list *list, rt_status *status)
 
 bool rt_device_list_read(rt_device_list *list, rt_status *status)
 {
-    pin_pocl_threads();
+    suit_pocl();
     return read_list(list, status);
 }
 
@@ -141,7 +151,7 @@ static void *read_beside(void *argument)
 void rt_device_list_begin(rt_device_opening *o)
 {
     *o = (rt_device_opening){.has_begun = true, .status = RT_STATUS_INIT};
-    pin_pocl_threads();
+    suit_pocl();
     o->has_thread = pthread_create(&o->thread, NULL, read_beside, o) == 0;
 }
 
