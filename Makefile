@@ -57,7 +57,7 @@ FLAGS := $(BUILD)/flags
 # ---- Files ----
 
 # In the order in which program.c and check-kernels put them together.
-KERNELS := $(addprefix $(SRC)kernels/,effects.def primitives/kinds.h options.h layout.h margins.h \
+KERNELS := $(addprefix $(SRC)kernels/,effects.def parts.h primitives/kinds.h options.h layout.h margins.h \
            $(addprefix lib/,real.h vec3.cl sampling.cl tile.cl) \
            primitives/intersect.cl traversal/packet.cl \
            $(addprefix shading/,surface.cl pattern.cl media.cl) \

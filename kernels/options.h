@@ -2,6 +2,17 @@
  * its default where it has one. src/render/variant.c is the only place that sets them; a value that
  * no kernel knows stops the build here, not in the middle of a stage. */
 
+/* Which kernels there are: a part of parts.h. */
+#ifndef RT_PART
+#define RT_PART RT_PART_ALL
+#endif
+#if RT_PART < 0 || RT_PART >= RT_PART_COUNT
+#error "RT_PART must be from 0 to 3"
+#endif
+#define RT_HAS_TRACE (RT_PART == RT_PART_ALL || RT_PART == RT_PART_TRACE)
+#define RT_HAS_OCCLUDE (RT_PART == RT_PART_ALL || RT_PART == RT_PART_OCCLUDE)
+#define RT_HAS_STAGES (RT_PART == RT_PART_ALL || RT_PART == RT_PART_STAGES)
+
 /* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY
 #define RT_ACCURACY 2
@@ -79,17 +90,6 @@ enum { RT_EFFECTS_ARE_GIVEN = 0 RT_EFFECTS(RT_SQUARE) };
 #define RT_NEXT (RT_REFLECT || RT_REFRACT)
 #define RT_SUM (RT_ANTIALIAS || RT_NEXT)
 #define RT_PROBES (RT_SHADOWS || RT_AMBIENT_OCCLUSION)
-
-/* Whether there is a kernel for any hit beside that for the nearest. */
-#ifndef RT_OCCLUSION
-#define RT_OCCLUSION 0
-#endif
-#if RT_OCCLUSION != 0 && RT_OCCLUSION != 1
-#error "RT_OCCLUSION must be 0 or 1"
-#endif
-#if RT_PROBES && !RT_OCCLUSION
-#error "shadows and RT_AMBIENT_OCCLUSION need RT_OCCLUSION"
-#endif
 
 /* The number of lights where they are few, so that the loop over them is none; -1: an argument. */
 #ifndef RT_LIGHTS

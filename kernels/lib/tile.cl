@@ -22,9 +22,9 @@ INLINE pixel tile_pixel(rt_tile tile)
     return block_pixel(tile, (int)get_group_id(0), (int)get_local_id(0));
 }
 
-/* What a kernel's attributes say of its work-groups, in the form that PoCL's optimiser sees too where
- * it compiles for groups of any size: without it every kernel is a loop in three dimensions, up to a
- * quarter slower. */
+/* What a kernel's attributes say of its work-groups, in the form that PoCL's optimiser sees too
+ * where it compiles for groups of any size: without it every kernel is a loop in three dimensions,
+ * up to a quarter slower. */
 #if HAS_BUILTIN(__builtin_assume)
 #define ASSUME_GROUP(size)                                                                         \
     do {                                                                                           \

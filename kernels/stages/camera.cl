@@ -26,6 +26,7 @@ INLINE void begin_path(__global int *home, __global number *paths, __global int 
     marks[RT_MARK_WAITING * step + i] = 0;
 }
 
+#if RT_HAS_STAGES
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global number *rays,
           const rt_turn turn, const uint seed, const int flags, __global float *colors,
@@ -84,3 +85,4 @@ rt_camera(const rt_frame frame, const rt_tile tile, const int stride, __global n
     if (RT_NEXT)
         begin_path(home, paths, marks, nesting.eye, step, i);
 }
+#endif

@@ -1,5 +1,6 @@
 /* The last stage: from colours, or sums of them, and hits in block order to the tile's rows. */
 
+#if RT_HAS_STAGES
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_resolve(const rt_tile tile, const int stride, __global const float *colors,
            __global float *picture, const rt_turn turn, const int flags)
@@ -35,3 +36,4 @@ rt_resolve_hits(const rt_tile tile, const int stride, __global const int *hit_in
     out[2] = as_int((float)tuv.y);
     out[3] = as_int((float)tuv.z);
 }
+#endif

@@ -251,6 +251,7 @@ INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
     STORE3(color, w->colors, step, i);
 }
 
+#if RT_HAS_STAGES
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_material *materials,
          __global const rt_light *lights, const int light_count, const rt_surround surround,
@@ -290,3 +291,4 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
         shade_ray(&w, first + k, 0);
     }
 }
+#endif

@@ -68,6 +68,7 @@ INLINE void load_packet(__global const number *source, size_t step, packet *p)
 #endif
 }
 
+#if RT_HAS_TRACE
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void
 rt_trace(const int stride, __global const number *rays, WORLD_PARAMETERS, __global int *hit_index,
          __global int *hit_slot, __global number *hit_array)
@@ -82,8 +83,9 @@ rt_trace(const int stride, __global const number *rays, WORLD_PARAMETERS, __glob
     for (int g = 0; g < RT_GROUPS; ++g)
         store_hits(&p.h[g], first + g * RT_LANES, step, hit_index, hit_slot, hit_array);
 }
+#endif
 
-#if RT_OCCLUSION
+#if RT_HAS_OCCLUDE
 /* Any hit: the index of some primitive that is hit in (tmin, tmax), or RT_MISS. Which one it is may
  * differ from device to device; whether there is one does not. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_PACKET, 1, 1))) void

@@ -104,7 +104,8 @@ static void pin_pocl_threads(void)
     setenv("POCL_AFFINITY", "1", 0);
 }
 
-/* How PoCL serves rt best, where the user has not said otherwise. The environment is its only ear. */
+/* How PoCL serves rt best, where the user has not said otherwise. The environment is its only ear.
+ */
 static void suit_pocl(void)
 {
     pin_pocl_threads();

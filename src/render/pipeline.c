@@ -53,11 +53,24 @@ bool rt_renderer_has_probes(const rt_renderer *r)
     return has_shadows(r) || rt_renderer_has(r, RT_EFFECT_AMBIENT_OCCLUSION);
 }
 
+bool rt_renderer_has_any_hit(const rt_renderer *r)
+{
+    return r->with_occlusion || rt_renderer_has_probes(r);
+}
+
+/* Which program a kernel is in. */
+static cl_program program_of(const rt_renderer *r, enum rt_stage stage)
+{
+    return r->programs.parts[stage == RT_STAGE_TRACE     ? RT_PART_TRACE
+                             : stage == RT_STAGE_OCCLUDE ? RT_PART_OCCLUDE
+                                                         : RT_PART_STAGES];
+}
+
 static bool has_kernel(const rt_renderer *r, enum rt_stage stage)
 {
     switch (stages[stage].same_as) {
     case RT_STAGE_OCCLUDE:
-        return r->with_occlusion || rt_renderer_has_probes(r);
+        return rt_renderer_has_any_hit(r);
     case RT_STAGE_HITS:
         return r->with_hits;
     case RT_STAGE_SHADOW_RAYS:
@@ -89,7 +102,7 @@ static size_t bytes_a_ray(const rt_renderer *r, enum tile_buffer which)
     const bool next = rt_renderer_has_next(r);
     const bool refraction = rt_renderer_has(r, RT_EFFECT_REFRACT);
     const bool probes = rt_renderer_has_probes(r);
-    const bool any_hit = probes || r->with_occlusion;
+    const bool any_hit = rt_renderer_has_any_hit(r);
     switch (which) {
     case BUFFER_RAYS:
         return RT_RAY_COMPONENTS * number;
@@ -159,7 +172,7 @@ static bool make_kernels(rt_renderer *r, rt_status *status)
         cl_int error = CL_SUCCESS;
         if (same != stage || !has_kernel(r, stage))
             continue;
-        r->kernels[i] = clCreateKernel(r->program, stages[i].kernel, &error);
+        r->kernels[i] = clCreateKernel(program_of(r, stage), stages[i].kernel, &error);
         if (!RT_CL_MADE(error, "clCreateKernel", status))
             return false;
     }

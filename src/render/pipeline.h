@@ -33,6 +33,7 @@ enum tile_buffer {
 bool rt_renderer_has(const rt_renderer *renderer, enum rt_effect effect);
 bool rt_renderer_has_next(const rt_renderer *renderer);
 bool rt_renderer_has_probes(const rt_renderer *renderer);
+bool rt_renderer_has_any_hit(const rt_renderer *renderer);
 
 /* Makes the arrays between the stages, and a kernel for each stage with its arguments. After a
  * failure, too, the caller releases what there is. */

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 
 #include "common/clock.h"
-#include "opencl/program.h"
 #include "render/passes.h"
 #include "render/state.h"
 #include "render/variant.h"
@@ -44,12 +43,9 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
     r->queue = clCreateCommandQueue(r->context, device->id, CL_QUEUE_PROFILING_ENABLE, &error);
     if (!RT_CL_MADE(error, "clCreateCommandQueue", status))
         return false;
-    char options[RT_VARIANT_OPTIONS_SIZE];
-    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0,
-                          r->with_occlusion || rt_renderer_has_probes(r), scene->accuracy};
-    rt_variant_options(&r->effects, &walk, rt_variant_rounding(device), options);
-    r->program = rt_program_build(r->context, device, options, status);
-    if (!r->program)
+    const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, scene->accuracy};
+    if (!rt_programs_build(&r->programs, r->context, device, &r->effects, &walk,
+                           rt_renderer_has_any_hit(r), status))
         return false;
     r->times.program = rt_clock_seconds() - start;
     start = rt_clock_seconds();
@@ -124,8 +120,7 @@ void rt_renderer_free(rt_renderer *r)
         rt_flight_release(&r->flights[i]);
     rt_pipeline_release(r);
     rt_device_scene_release(&r->scene);
-    if (r->program)
-        clReleaseProgram(r->program);
+    rt_programs_release(&r->programs);
     if (r->queue)
         clReleaseCommandQueue(r->queue);
     if (r->context)

@@ -9,6 +9,7 @@
 #include "render/device_scene.h"
 #include "render/flight.h"
 #include "render/pipeline.h"
+#include "render/programs.h"
 #include "render/renderer.h"
 
 /* Arguments that change from launch to launch: their places, or -1. */
@@ -19,7 +20,7 @@ typedef struct changing {
 struct rt_renderer {
     cl_context context;
     cl_command_queue queue;
-    cl_program program;
+    rt_programs programs;
     rt_effects effects;
     cl_kernel kernels[RT_STAGE_COUNT]; /* NULL where the scene does not call for the stage */
     changing changing[RT_STAGE_COUNT];

@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "common/accuracy.h"
+#include "kernels/parts.h"
 #include "opencl/device.h"
 #include "scene/effects.h"
 
@@ -20,13 +21,13 @@ enum rt_rounding rt_variant_rounding(const rt_device *device);
 /* How the trace stage walks (kernels/options.h). */
 typedef struct rt_walk {
     int lanes, packet;
-    size_t stack_size;   /* entries that the tree needs at most; 0 for no tree */
-    bool with_occlusion; /* whether any hit is asked for too */
+    size_t stack_size; /* entries that the tree needs at most; 0 for no tree */
     enum rt_accuracy accuracy;
 } rt_walk;
 
-/* Writes the compiler options of a variant to options[0..RT_VARIANT_OPTIONS_SIZE). */
-void rt_variant_options(const rt_effects *effects, const rt_walk *walk, enum rt_rounding rounding,
-                        char *options);
+/* Writes the compiler options of a part of the kernels (kernels/parts.h), none of which leaves the
+ * part as it is, to options[0..RT_VARIANT_OPTIONS_SIZE). */
+void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk,
+                        enum rt_rounding rounding, char *options);
 
 #endif

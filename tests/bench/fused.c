@@ -28,9 +28,9 @@ static bool build(bench_fused *f, const rt_device *device, const rt_scene *scene
 {
     const rt_effects effects = rt_effects_of(scene);
     const rt_walk walk = {rt_device_lanes(device, scene->accuracy), packet,
-                          bvh ? bvh->stack_size : 0, false, scene->accuracy};
+                          bvh ? bvh->stack_size : 0, scene->accuracy};
     char options[RT_VARIANT_OPTIONS_SIZE];
-    rt_variant_options(&effects, &walk, rt_variant_rounding(device), options);
+    rt_variant_options(RT_PART_ALL, &effects, &walk, rt_variant_rounding(device), options);
     rt_file_text text = {NULL, 0};
     const char *reason = rt_file_read(SOURCE, &text);
     if (reason)

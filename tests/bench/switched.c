@@ -78,9 +78,17 @@ static bool make_way(way *w, const rt_device *device, const rt_scene *scene, con
         return false;
     const double first = middle - start, second = rt_clock_seconds() - middle;
     *build = rt_renderer_times(w->renderer)->program + fmax(0.0, first - second);
-    return RT_CL(clGetProgramInfo(w->renderer->program, CL_PROGRAM_BINARY_SIZES, sizeof *binary,
-                                  binary, NULL),
-                 status);
+    *binary = 0;
+    for (int part = 0; part < RT_PART_COUNT; ++part) {
+        const cl_program program = w->renderer->programs.parts[part];
+        size_t size = 0;
+        if (program &&
+            !RT_CL(clGetProgramInfo(program, CL_PROGRAM_BINARY_SIZES, sizeof size, &size, NULL),
+                   status))
+            return false;
+        *binary += size;
+    }
+    return true;
 }
 
 /* What the scene calls for goes first: whatever the first build of a process takes besides is at

@@ -110,14 +110,14 @@ static void the_list_is_the_drivers(void **state)
     (void)state;
     const rt_device *device = test_device();
     const rt_effects effects = {.mode = RT_EFFECTS_ALL};
-    const rt_walk walk = {.lanes = 1, .packet = 1, .with_occlusion = true, .accuracy = 1};
+    const rt_walk walk = {.lanes = 1, .packet = 1, .accuracy = 1};
     rt_status status = RT_STATUS_INIT;
     char options[RT_VARIANT_OPTIONS_SIZE], names[1024];
     cl_int error = CL_SUCCESS;
     size_t kernels = 1, listed = 0;
     cl_context context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &error);
     assert_int_equal(error, CL_SUCCESS);
-    rt_variant_options(&effects, &walk, rt_variant_rounding(device), options);
+    rt_variant_options(RT_PART_ALL, &effects, &walk, rt_variant_rounding(device), options);
     cl_program program = rt_program_build(context, device, options, &status);
     assert_good(program != NULL, &status);
     assert_int_equal(clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, sizeof names, names, NULL),

@@ -6,8 +6,7 @@
 #include <glob.h>
 #include <string.h>
 
-#include "opencl/program.h"
-#include "render/variant.h"
+#include "render/programs.h"
 
 #define WALK                                                                                       \
     (rt_walk)                                                                                      \
@@ -34,37 +33,44 @@ static const char plain[] = "image width 40 height 24\nambient 0.5 0.5 0.5\n"
                             "light point at 3 5 3\nmaterial m ka 1 0 0 kd 1 1 1\n"
                             "sphere center 0 0 -3 radius 1 material m\n";
 
-/* The program that a scene's effects build; with_occlusion as the renderer says it. */
-static cl_program build(const rt_effects *effects, bool with_occlusion, cl_context *context)
+/* The programs that a scene's effects build; with any hit as the renderer says it. */
+static void build(rt_programs *programs, const rt_effects *effects, bool with_any_hit,
+                  cl_context *context)
 {
     const rt_device *device = test_device();
     rt_status status = RT_STATUS_INIT;
-    char options[RT_VARIANT_OPTIONS_SIZE];
+    const rt_walk walk = WALK;
     cl_int error = CL_SUCCESS;
-    rt_walk walk = WALK;
-    walk.with_occlusion = with_occlusion;
     *context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &error);
     assert_int_equal(error, CL_SUCCESS);
-    rt_variant_options(effects, &walk, rt_variant_rounding(device), options);
-    cl_program program = rt_program_build(*context, device, options, &status);
-    assert_good(program != NULL, &status);
-    return program;
+    assert_good(
+        rt_programs_build(programs, *context, device, effects, &walk, with_any_hit, &status),
+        &status);
 }
 
 /* The kernels' names between semicolons, one at each end too. */
-static void kernel_names(cl_program program, char *names, size_t size)
+static void kernel_names(const rt_programs *programs, char *names, size_t size)
 {
-    names[0] = ';';
-    assert_int_equal(clGetProgramInfo(program, CL_PROGRAM_KERNEL_NAMES, size - 2, names + 1, NULL),
-                     CL_SUCCESS);
-    strcat(names, ";");
+    strcpy(names, ";");
+    for (int part = 0; part < RT_PART_COUNT; ++part) {
+        const size_t length = strlen(names);
+        if (!programs->parts[part])
+            continue;
+        assert_int_equal(clGetProgramInfo(programs->parts[part], CL_PROGRAM_KERNEL_NAMES,
+                                          size - length - 1, names + length, NULL),
+                         CL_SUCCESS);
+        strcat(names, ";");
+    }
 }
 
-static cl_uint argument_count(cl_program program, const char *name)
+static cl_uint argument_count(const rt_programs *programs, const char *name)
 {
     cl_uint count = 0;
-    cl_int error = CL_SUCCESS;
-    cl_kernel kernel = clCreateKernel(program, name, &error);
+    cl_int error = CL_INVALID_KERNEL_NAME;
+    cl_kernel kernel = NULL;
+    for (int part = 0; part < RT_PART_COUNT && error != CL_SUCCESS; ++part)
+        if (programs->parts[part])
+            kernel = clCreateKernel(programs->parts[part], name, &error);
     assert_int_equal(error, CL_SUCCESS);
     assert_int_equal(clGetKernelInfo(kernel, CL_KERNEL_NUM_ARGS, sizeof count, &count, NULL),
                      CL_SUCCESS);
@@ -106,9 +112,10 @@ static void what_each_effect_adds(void **state)
         if (cases[i].effect < RT_EFFECT_COUNT)
             effects.on[cases[i].effect] = true;
         cl_context context;
-        cl_program program = build(&effects, probes, &context);
+        rt_programs programs;
         char names[1024], name[64];
-        kernel_names(program, names, sizeof names);
+        build(&programs, &effects, probes, &context);
+        kernel_names(&programs, names, sizeof names);
         size_t expected = sizeof always / sizeof *always + probes, found = 0;
         for (size_t k = 0; k < 3 && cases[i].kernels[k]; ++k) {
             snprintf(name, sizeof name, ";%s;", cases[i].kernels[k]);
@@ -120,10 +127,10 @@ static void what_each_effect_adds(void **state)
         assert_int_equal(found, expected);
         for (size_t k = 0; k < sizeof always / sizeof *always; ++k) {
             if (i == 0)
-                counts[k] = argument_count(program, always[k]);
-            assert_int_equal(argument_count(program, always[k]), counts[k]);
+                counts[k] = argument_count(&programs, always[k]);
+            assert_int_equal(argument_count(&programs, always[k]), counts[k]);
         }
-        clReleaseProgram(program);
+        rt_programs_release(&programs);
         clReleaseContext(context);
     }
 }

@@ -16,14 +16,14 @@ static void options_name_what_the_scene_has(void **state)
                                 .exponent_bits = 8};
     const rt_walk walk = {
         .lanes = 4, .packet = 64, .stack_size = 65, .accuracy = RT_ACCURACY_STANDARD};
-    rt_variant_options(&effects, &walk, RT_ROUNDING_DOUBLE, options);
+    rt_variant_options(RT_PART_ALL, &effects, &walk, RT_ROUNDING_DOUBLE, options);
     static const char first[] =
-        "-cl-std=CL1.2 -cl-kernel-arg-info -DRT_ACCURACY=1 -DRT_LANES=4 -DRT_PACKET=64 "
-        "-DRT_TREE=1 -DRT_STACK=256 -DRT_OCCLUSION=0 -DRT_SHININESS_BITS=8 "
-        "-DRT_SHININESS_FRACTION=0 -DRT_ROUNDING=1 ";
+        "-cl-std=CL1.2 -cl-kernel-arg-info -DRT_PART=0 -DRT_ACCURACY=1 -DRT_LANES=4 "
+        "-DRT_ROUNDING=1 -DRT_PACKET=64 -DRT_TREE=1 -DRT_STACK=256 -DRT_SHININESS_BITS=8 "
+        "-DRT_SHININESS_FRACTION=0 ";
     assert_memory_equal(options, first, sizeof first - 1);
-    assert_non_null(strstr(options, " -DRT_SPHERES=0 -DRT_TRIANGLES=1 "));
-    assert_non_null(strstr(options, " -DRT_LIGHTS=0 -DRT_CULL=-1 "));
+    assert_non_null(
+        strstr(options, " -DRT_LIGHTS=0 -DRT_SPHERES=0 -DRT_TRIANGLES=1 -DRT_CULL=-1 "));
     /* Every effect is told, whether it is on or not. */
 #define START(word, name) " -DRT_" #word "=",
     static const char *const starts[] = {RT_EFFECTS(START)};
@@ -33,8 +33,34 @@ static void options_name_what_the_scene_has(void **state)
         assert_non_null(start);
         assert_int_equal(atoi(start + strlen(starts[e])), effects.on[e]);
     }
-    rt_variant_options(&effects, &walk, RT_ROUNDING_DEVICE, options);
+    rt_variant_options(RT_PART_ALL, &effects, &walk, RT_ROUNDING_DEVICE, options);
     assert_non_null(strstr(options, "-cl-fp32-correctly-rounded-divide-sqrt"));
+}
+
+/* Walks are the same whatever is shaded, and what is shaded whatever the walk. */
+static void parts_follow_from_what_they_are_of(void **state)
+{
+    (void)state;
+    char plain[RT_VARIANT_OPTIONS_SIZE], other[RT_VARIANT_OPTIONS_SIZE];
+    const rt_effects phong = {.has_kind[RT_KIND_SPHERES] = true, .exponent_bits = 8};
+    rt_effects rich = phong, culled = phong;
+    rich.on[RT_EFFECT_FOG] = rich.on[RT_EFFECT_REFRACT] = rich.has_fractional_exponent = true;
+    rich.exponent_bits = 20;
+    rich.light_count = 3;
+    culled.on[RT_EFFECT_CULL] = true;
+    culled.cull_sign = 1;
+    const rt_walk walk = {.lanes = 8, .packet = 64, .stack_size = 65, .accuracy = 2};
+    const rt_walk single = {.lanes = 8, .packet = 8, .stack_size = 0, .accuracy = 2};
+    for (int part = RT_PART_TRACE; part < RT_PART_COUNT; ++part) {
+        const bool shades = part == RT_PART_STAGES;
+        rt_variant_options(part, &phong, &walk, RT_ROUNDING_DEVICE, plain);
+        rt_variant_options(part, &rich, &walk, RT_ROUNDING_DEVICE, other);
+        assert_int_equal(strcmp(plain, other) != 0, shades);
+        rt_variant_options(part, &culled, &walk, RT_ROUNDING_DEVICE, other);
+        assert_int_equal(strcmp(plain, other) != 0, !shades);
+        rt_variant_options(part, &phong, &single, RT_ROUNDING_DEVICE, other);
+        assert_int_equal(strcmp(plain, other) != 0, !shades);
+    }
 }
 
 static void rounding_follows_the_device(void **state)
@@ -51,6 +77,7 @@ static void rounding_follows_the_device(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(options_name_what_the_scene_has),
+                                       cmocka_unit_test(parts_follow_from_what_they_are_of),
                                        cmocka_unit_test(rounding_follows_the_device)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
