@@ -104,6 +104,14 @@ INLINE int lanes_or16(char16 m)
 #define LESSER_N(a, b) select(b, a, (a) < (b))
 #define GREATER_N(a, b) select(b, a, (a) > (b))
 
+/* sum + error = a + b exactly (Knuth). */
+#define TWO_SUM(sum, error, a, b)                                                                  \
+    do {                                                                                           \
+        sum = (a) + (b);                                                                           \
+        const real part_ = sum - (a);                                                              \
+        error = ((a) - (sum - part_)) + ((b)-part_);                                               \
+    } while (0)
+
 /* The least and the greatest of a vector's lanes. */
 #if RT_LANES == 1
 #define LEAST(v) (v)

@@ -43,14 +43,6 @@ INLINE void meet_at_root(const rays *r, real3 center, real radius, real b, real 
  * Oishi 2005). All is + - * and fma in one precision: the bits are the same on devices with and
  * without fp64. */
 
-/* sum + error = a + b exactly. */
-#define TWO_SUM(sum, error, a, b)                                                                  \
-    do {                                                                                           \
-        sum = (a) + (b);                                                                           \
-        const real part_ = sum - (a);                                                              \
-        error = ((a) - (sum - part_)) + ((b)-part_);                                               \
-    } while (0)
-
 INLINE real difference_of_products(real a, real b, real c, real d)
 {
     const real product = c * d;

@@ -65,37 +65,58 @@ INLINE mask owns(const corners *s, mask is_positive)
            (MASK(s->wc != (real)0.0f) | ~(beyond_c ^ is_positive));
 }
 
-/* What rounding can make of t at most, to first order (the idea of pbrt 4th ed. 6.8, but with the
- * weights of the hit, so that a large triangle near the origin is not lost): the error of each
- * corner along the ray, and that across it times the triangle's slope. From the corners mirrored in
+/* (a, b, c, d) to a b - c d as a sum of two numbers, as if in twice the precision. */
+#define TWOFOLD_DIFFERENCE(sum, rest, a, b, c, d)                                                  \
+    do {                                                                                           \
+        const real p_ = (a) * (b), q_ = (c) * (d);                                                 \
+        TWO_SUM(sum, rest, p_, -q_);                                                               \
+        rest += fma(a, b, -p_) - fma(c, d, -q_);                                                   \
+    } while (0)
+
+/* From corners to origin, and what rounding takes from it. */
+#define FROM_CORNER(to, rest, corner)                                                              \
+    do {                                                                                           \
+        TWO_SUM(to.x, rest.x, r->from.x, -(corner).x);                                             \
+        TWO_SUM(to.y, rest.y, r->from.y, -(corner).y);                                             \
+        TWO_SUM(to.z, rest.z, r->from.z, -(corner).z);                                             \
+    } while (0)
+
+#define FARTHEST_OF(v) GREATEST(fabs((v).x), fabs((v).y), fabs((v).z))
+
+/* t where the corners are far away beside it, as of a floor that reaches to the horizon: a mean of
+ * theirs cancels then. It is det times t, the volume that the corners span with the origin, by sums
+ * and products that carry their rounding errors (Knuth; Ogita, Rump and Oishi 2005). `bound` is
+ * what rounding can make of t all the same, but for a few ulp of t. From the corners mirrored in
  * the origin, which changes signs alone: taken anew, or the compiler keeps those of the test in
- * memory for what is nearly never asked. */
-INLINE real error_of_t(const rays *r, real3 a, real3 b, real3 c, real wa, real wb, real wc,
-                       real det)
+ * memory for what is rarely asked. */
+INLINE real near_t(const rays *r, real3 a, real3 b, real3 c, const mask sign, real det, real *bound)
 {
-    a = SUB(real3, r->from, a);
-    b = SUB(real3, r->from, b);
-    c = SUB(real3, r->from, c);
-    wa = fabs(wa), wb = fabs(wb), wc = fabs(wc);
-    const real at = a.z * r->onward.z, bt = b.z * r->onward.z, ct = c.z * r->onward.z;
-    const real sx = fabs(r->sx), sy = fabs(r->sy);
-    const real along = fma(wa, fabs(at), fma(wb, fabs(bt), wc * fabs(ct)));
-    const real aside_x =
-        fma(wa, fma(sx, fabs(a.z), fabs(a.x)),
-            fma(wb, fma(sx, fabs(b.z), fabs(b.x)), wc * fma(sx, fabs(c.z), fabs(c.x))));
-    const real aside_y =
-        fma(wa, fma(sy, fabs(a.z), fabs(a.y)),
-            fma(wb, fma(sy, fabs(b.z), fabs(b.y)), wc * fma(sy, fabs(c.z), fabs(c.y))));
-    const real ax = fma(-r->sx, a.z, a.x), ay = fma(-r->sy, a.z, a.y);
-    const real bx = fma(-r->sx, b.z, b.x) - ax, by = fma(-r->sy, b.z, b.y) - ay;
-    const real cx = fma(-r->sx, c.z, c.x) - ax, cy = fma(-r->sy, c.z, c.y) - ay;
-    const real bs = bt - at, cs = ct - at;
-    const real part = DIVIDE((real)1.0f, det);
-    const real slope_x = fabs(fma(by, cs, -(bs * cy))) * part;
-    const real slope_y = fabs(fma(bs, cx, -(bx * cs))) * part;
-    const real sum = fma(slope_x, aside_x, fma(slope_y, aside_y, along));
-    return (real)(8 * RT_HALF_ULP) * (sum * part);
+    real3 f, g, h, rest_f, rest_g, rest_h;
+    FROM_CORNER(f, rest_f, a);
+    FROM_CORNER(g, rest_g, b);
+    FROM_CORNER(h, rest_h, c);
+    real area_f, area_g, area_h, low_f, low_g, low_h;
+    TWOFOLD_DIFFERENCE(area_f, low_f, h.x, g.y, h.y, g.x);
+    TWOFOLD_DIFFERENCE(area_g, low_g, f.x, h.y, f.y, h.x);
+    TWOFOLD_DIFFERENCE(area_h, low_h, g.x, f.y, g.y, f.x);
+    const real part_f = f.z * area_f, part_g = g.z * area_g, part_h = h.z * area_h;
+    low_f = fma(f.z, low_f, fma(f.z, area_f, -part_f));
+    low_g = fma(g.z, low_g, fma(g.z, area_g, -part_g));
+    low_h = fma(h.z, low_h, fma(h.z, area_h, -part_h));
+    real two, three, low_two, low_three;
+    TWO_SUM(two, low_two, part_f, part_g);
+    TWO_SUM(three, low_three, two, part_h);
+    const real rest = DOT(rest_f, CROSS(real3, h, g)) + DOT(rest_g, CROSS(real3, f, h)) +
+                      DOT(rest_h, CROSS(real3, g, f));
+    const real volume = three + (((low_two + low_three) + (low_f + low_g + low_h)) + rest);
+    const real far = GREATEST(FARTHEST_OF(f), FARTHEST_OF(g), FARTHEST_OF(h));
+    const real part = DIVIDE(r->onward.z, det);
+    *bound = (real)(512 * RT_HALF_ULP * RT_HALF_ULP) * fabs(part) * far * far * far;
+    return -AS_REAL(AS_MASK(volume) ^ sign) * part;
 }
+
+/* Corners so many times as far along the ray are far away. */
+#define FAR_CORNERS 64
 
 /* Corners in the rays' order of axes. Returns whether any lane is on. What is rarely asked takes a
  * lane out by a determinant of 0: compilers do worse with masks that branches change. */
@@ -137,14 +158,16 @@ INLINE int meet_triangles(const rays *r, real3 a, real3 b, real3 c, const mask a
     m->t = DIVIDE(AS_REAL(AS_MASK(sum) ^ sign), m->det);
     m->u = AS_REAL(AS_MASK(s.wb) ^ sign);
     m->v = AS_REAL(AS_MASK(s.wc) ^ sign);
-    /* t is a mean of the corners': where all are ahead, so is the hit, and no rounding changes
-     * that. Where t is not even positive, its error need not be known. */
-    const mask straddles = MASK(LESSEST(at, bt, ct) <= (real)0.0f);
-    const mask behind = straddles & MASK(m->t <= (real)0.0f);
-    m->det = SELECT(m->det, (real)0.0f, behind);
-    if (ANY(m->on & MASK(m->det > (real)0.0f) & straddles))
-        m->det = SELECT(m->det, (real)0.0f,
-                        straddles & ~MASK(m->t > error_of_t(r, a, b, c, s.wa, s.wb, s.wc, m->det)));
+    /* A hit that is nearer than its own error does not count (pbrt 4th ed. 6.8). Where no corner is
+     * far away, the sign of t is sure. */
+    const real farthest_t = GREATEST(fabs(at), fabs(bt), fabs(ct));
+    const mask is_near = MASK(farthest_t > (real)FAR_CORNERS * fabs(m->t));
+    if (ANY(m->on & MASK(m->det > (real)0.0f) & is_near)) {
+        real bound;
+        const real t = near_t(r, a, b, c, sign, m->det, &bound);
+        m->t = SELECT(m->t, t, is_near);
+        m->det = SELECT(m->det, (real)0.0f, is_near & ~MASK(t > bound));
+    }
     m->on = m->on & MASK(m->det > (real)0.0f);
     keep_in_box(r->from, r->onward, r->tmin, LEAST_CORNER(a, b, c), GREATEST_CORNER(a, b, c), m);
     return 1;

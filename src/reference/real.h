@@ -53,6 +53,24 @@ typedef struct hit {
     real t, u, v;
 } hit;
 
+/* A number and what rounding took from it: together they are exact (Knuth; Dekker). */
+typedef struct twofold {
+    real value, rest;
+} twofold;
+
+static inline twofold sum_of(real a, real b)
+{
+    const real s = a + b;
+    const real b_part = s - a;
+    return (twofold){s, (a - (s - b_part)) + (b - b_part)};
+}
+
+static inline twofold product_of(real a, real b)
+{
+    const real p = a * b;
+    return (twofold){p, FMA(a, b, -p)};
+}
+
 static inline vec vec_of(float x, float y, float z)
 {
     return (vec){(real)x, (real)y, (real)z};

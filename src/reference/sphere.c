@@ -1,5 +1,5 @@
 /* Spheres of the scalar reference. In the robust test sums and products that cancel are carried
- * with their rounding errors (Knuth; Dekker; Ogita, Rump and Oishi 2005). */
+ * with their rounding errors (Ogita, Rump and Oishi 2005). */
 #include "reference/effects.h"
 #include "reference/margins.h"
 
@@ -29,24 +29,6 @@ static quadratic plain_quadratic(const ray *r, vec f, real radius, real *gap)
     e.c = FMA(-radius, radius, dot(f, f));
     e.discriminant = e.dd * *gap;
     return e;
-}
-
-/* A number and what rounding took from it: together they are exact. */
-typedef struct twofold {
-    real value, rest;
-} twofold;
-
-static twofold sum_of(real a, real b)
-{
-    const real s = a + b;
-    const real b_part = s - a;
-    return (twofold){s, (a - (s - b_part)) + (b - b_part)};
-}
-
-static twofold product_of(real a, real b)
-{
-    const real p = a * b;
-    return (twofold){p, FMA(a, b, -p)};
 }
 
 /* a b - c d */

@@ -66,24 +66,63 @@ static bool is_on_positive_side(const corner *p, const corner *q, real side)
     return p->y > q->y || (p->y == q->y && q->x > p->x);
 }
 
-/* What rounding can make of t at most, by the hit's weights w, which add up to 1 with `part`: the
- * corners' errors along the ray, and across it times the slope of the triangle. */
-static real error_of(const view *s, const corner c[3], const real w[3], real part)
+/* A hit is near where some corner is so many times as far along the ray. */
+#define NEAR 64
+
+/* A corner from the ray's origin without rounding: `value`, and the rest that it leaves. */
+typedef struct place {
+    vec value, rest;
+} place;
+
+static place place_of(const view *s, float x, float y, float z)
 {
-    real along = 0, aside_x = 0, aside_y = 0;
-    for (int i = 2; i >= 0; --i) {
-        const real weight = FABS(w[i]);
-        const real x = FMA(FABS(s->slope_x), FABS(c[i].v[2]), FABS(c[i].v[0]));
-        const real y = FMA(FABS(s->slope_y), FABS(c[i].v[2]), FABS(c[i].v[1]));
-        along = i == 2 ? weight * FABS(c[i].t) : FMA(weight, FABS(c[i].t), along);
-        aside_x = i == 2 ? weight * x : FMA(weight, x, aside_x);
-        aside_y = i == 2 ? weight * y : FMA(weight, y, aside_y);
+    const real p[3] = {(real)x, (real)y, (real)z};
+    twofold f[3];
+    for (int i = 0; i < 3; ++i)
+        f[i] = sum_of(p[s->axes[i]], -s->origin[i]);
+    return (place){{f[0].value, f[1].value, f[2].value}, {f[0].rest, f[1].rest, f[2].rest}};
+}
+
+/* z (p.x q.y - p.y q.x), and what is to be added to make up for rounding. */
+static twofold prism(real z, vec p, vec q)
+{
+    const twofold left = product_of(p.x, q.y), right = product_of(p.y, q.x);
+    const twofold area = sum_of(left.value, -right.value);
+    const twofold volume = product_of(z, area.value);
+    return (twofold){volume.value, FMA(z, area.rest + (left.rest - right.rest), volume.rest)};
+}
+
+/* The volume a . (c x b) that three corners span with the origin, six times that of their
+ * tetrahedron, as if in twice the precision. */
+static real volume_of(const place *a, const place *b, const place *c)
+{
+    const twofold pa = prism(a->value.z, c->value, b->value);
+    const twofold pb = prism(b->value.z, a->value, c->value);
+    const twofold pc = prism(c->value.z, b->value, a->value);
+    const twofold ab = sum_of(pa.value, pb.value);
+    const twofold all = sum_of(ab.value, pc.value);
+    const real small = dot(a->rest, cross(c->value, b->value)) +
+                       dot(b->rest, cross(a->value, c->value)) +
+                       dot(c->rest, cross(b->value, a->value));
+    return all.value + (((ab.rest + all.rest) + (pa.rest + pb.rest + pc.rest)) + small);
+}
+
+/* t of a hit beside which the triangle is huge, by that volume; false for one that is nearer than
+ * what rounding can make of it. */
+static bool near_t(const rt_triangle *triangle, const view *s, real det, real *t)
+{
+    const place p[3] = {place_of(s, triangle->ax, triangle->ay, triangle->az),
+                        place_of(s, triangle->bx, triangle->by, triangle->bz),
+                        place_of(s, triangle->cx, triangle->cy, triangle->cz)};
+    real far = 0;
+    for (int i = 0; i < 3; ++i) {
+        const vec m = magnitudes(p[i].value);
+        far = FMAX(far, FMAX(m.x, FMAX(m.y, m.z)));
     }
-    const real x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, t1 = c[1].t - c[0].t;
-    const real x2 = c[2].x - c[0].x, y2 = c[2].y - c[0].y, t2 = c[2].t - c[0].t;
-    const real slope_x = FABS(FMA(y1, t2, -(t1 * y2))) * part;
-    const real slope_y = FABS(FMA(t1, x2, -(x1 * t2))) * part;
-    return 8 * HALF_ULP * (FMA(slope_x, aside_x, FMA(slope_y, aside_y, along)) * part);
+    const real over = s->inverse / FABS(det);
+    const real volume = volume_of(&p[0], &p[1], &p[2]);
+    *t = (det < 0 ? -volume : volume) * over;
+    return *t > 512 * HALF_ULP * HALF_ULP * FABS(over) * far * far * far;
 }
 
 bool NAME(meet_watertight)(const rt_triangle *triangle, const ray *r, int cull, hit *h)
@@ -108,7 +147,6 @@ bool NAME(meet_watertight)(const rt_triangle *triangle, const ray *r, int cull, 
     h->t = FMA(w[0], c[0].t, FMA(w[1], c[1].t, w[2] * c[2].t)) / det;
     h->u = w[1] / det;
     h->v = w[2] / det;
-    /* t is a mean of the corners': where all are ahead, so is the hit. */
-    const bool all_ahead = c[0].t > 0 && c[1].t > 0 && c[2].t > 0;
-    return all_ahead || h->t > error_of(&s, c, w, 1 / FABS(det));
+    const real farthest = FMAX(FABS(c[0].t), FMAX(FABS(c[1].t), FABS(c[2].t)));
+    return !(farthest > NEAR * FABS(h->t)) || near_t(triangle, &s, det, &h->t);
 }

@@ -1,5 +1,5 @@
-/* Thin triangles, triangles without area, triangles seen edge-on: rows 9, 10, 12 and 13 of the hard
- * cases. */
+/* Thin triangles, triangles without area, triangles seen edge-on, and huge ones: rows 9, 10, 12, 13
+ * and 40 of the hard cases. */
 #include "hard/exact.h"
 #include "hard/naive.h"
 
@@ -112,6 +112,76 @@ static void slivers(void **state)
                              .naives = {&hard_naive_moller},
                              .measure = measure_slivers,
                              .of = &widths[i]};
+        hard_hold(&c);
+    }
+    hard_finish();
+}
+
+/* ---- Huge triangles ---- */
+
+/* A triangle of any slope whose middle is about the origin. */
+static void add_huge(rt_scene *scene, test_random *random, float size)
+{
+    float corners[9];
+    random_vector(random, size, corners);
+    random_vector(random, size, corners + 3);
+    for (int k = 0; k < 3; ++k)
+        corners[6 + k] = -corners[k] - corners[3 + k];
+    hard_add_triangle(scene, corners);
+}
+
+/* From within two of its plane: as seen from a floor that reaches to the horizon. One triangle at a
+ * time, or they would hide each other. */
+static void measure_huge(const hard_way *way, const void *of, double figures[])
+{
+    const size_t each = HARD_CHUNK / SLIVERS;
+    test_random random = {26};
+    size_t found = 0, lost = 0, true_hits = 0;
+    for (int i = 0; i < SLIVERS; ++i) {
+        rt_scene scene;
+        hard_tracer tracer;
+        hard_scene(&scene);
+        add_huge(&scene, &random, *(const float *)of);
+        for (size_t k = 0; k < each; ++k) {
+            rays[k] = (rt_ray){.tmin = 0.0f, .tmax = INFINITY};
+            random_vector(&random, 2.0f, rays[k].origin);
+            random_vector(&random, 1.0f, rays[k].direction);
+        }
+        hard_open(&tracer, way, &scene);
+        hard_trace(&tracer, rays, each, hits);
+        hard_close(&tracer);
+        for (size_t k = 0; k < each; ++k) {
+            const hard_truth truth = hard_true_triangle(&rays[k], &scene.triangles[0]);
+            true_hits += truth.is_hit;
+            lost += truth.is_hit && hits[k].primitive != 0;
+            if (truth.is_hit && hits[k].primitive == 0)
+                errors[found++] = hard_ulps((double)hits[k].t, truth.t);
+        }
+        rt_scene_clear(&scene);
+    }
+    figures[0] = hard_percentile(errors, found, 0.5);
+    figures[1] = hard_percentile(errors, found, 0.99);
+    figures[2] = 1e6 * (double)lost / (double)true_hits;
+}
+
+static void huge_triangles(void **state)
+{
+    (void)state;
+    static const hard_naive mean = {.mutant = MUTANT_MEAN_OF_FAR_CORNERS, .at_robust = true};
+    static const float sizes[] = {1e4f, 1e6f, 1e8f};
+    static const char *const names[] = {"a plane of 1e4, 1 away", "a plane of 1e6, 1 away",
+                                        "a plane of 1e8, 1 away"};
+    for (int i = 0; i < 3; ++i) {
+        /* What is nearer than 2e-4 is nearer than the rounding of 1e8. */
+        const double lost = i < 2 ? 0 : 1000;
+        const hard_case c = {.row = 40,
+                             .name = names[i],
+                             .figures = {{"median of t, ulp", {TOLD, TOLD, 2, 1}},
+                                         {"p99 of t, ulp", {TOLD, TOLD, i < 2 ? 64 : 128, 1}},
+                                         {"true hits lost, a million", {TOLD, TOLD, lost, 0}}},
+                             .naives = {&hard_naive_moller, &mean},
+                             .measure = measure_huge,
+                             .of = &sizes[i]};
         hard_hold(&c);
     }
     hard_finish();
@@ -327,7 +397,8 @@ static void in_plane(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(slivers), cmocka_unit_test(collinear),
-                                       cmocka_unit_test(grazing), cmocka_unit_test(in_plane)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(slivers), cmocka_unit_test(huge_triangles),
+                                       cmocka_unit_test(collinear), cmocka_unit_test(grazing),
+                                       cmocka_unit_test(in_plane)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

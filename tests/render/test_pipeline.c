@@ -338,7 +338,7 @@ static void half_a_space_is_half_the_light(void **state)
     rt_image image;
     test_scene(&scene,
                "image width 8 height 8\ncamera from 0.001 5 0 at 0.001 0 0 up 0 0 1 vfov 0.001\n"
-               "accuracy standard\nambient 1 1 1\nocclusion samples 1024 distance 1e6\n"
+               "ambient 1 1 1\nocclusion samples 1024 distance 1e6\n"
                "material floor ka 1 1 1\nmaterial wall\n"
                "triangle a -9 0 -9 b 9 0 -9 c 0 0 9 material floor\n"
                "triangle a 0 -1 -4e5 b 0 -1 4e5 c 0 4e5 0 material wall\n");
