@@ -35,6 +35,8 @@ int main(int argc, char **argv)
 {
     rt_run run = {.start = rt_clock_seconds()};
     bool good = rt_options_read(&run.options, argc, argv, &run.status) && act(&run);
+    if (!good)
+        rt_run_heed_signals(&run);
     /* Text on standard output may still be in a buffer that a full disk refuses. */
     if (fflush(stdout) != 0 || ferror(stdout))
         good = rt_status_fail(&run.status, RT_ERROR_OUTPUT, "rt: cannot write standard output");

@@ -21,6 +21,14 @@ static bool keep_going(void *context, double done)
     return !rt_signals_have_come();
 }
 
+void rt_run_heed_signals(rt_run *r)
+{
+    if (!rt_signals_have_come() || r->status.code == RT_INTERRUPTED)
+        return;
+    rt_status_clear(&r->status);
+    rt_status_fail(&r->status, RT_INTERRUPTED, "rt: interrupted");
+}
+
 void rt_run_end(rt_run *r)
 {
     rt_bvh_clear(&r->bvh);

@@ -45,6 +45,10 @@ bool rt_run_build_tree(rt_run *run, const rt_bvh **tree);
 /* Renders the scene with the scalar path, which tells its progress. */
 bool rt_run_draw_scalar(rt_run *run, bool in_double, rt_image *image);
 
+/* After a failure: what came with a signal is no error of its own. Ctrl-C goes to the processes of
+ * the kernels' compiler too, which then fails. */
+void rt_run_heed_signals(rt_run *run);
+
 /* Lets go what the run has opened, however far it came. */
 void rt_run_end(rt_run *run);
 
