@@ -10,6 +10,10 @@
 /* A round that is cut to the time that is left is planned to end this part of it early. */
 #define ROUND_MARGIN 0.05
 
+/* A round that is cut to less than such a part of the samples before tells nothing of their error:
+ * few samples are spread worse than many. */
+#define SHORT_ROUND 4
+
 /* One refinement in progress. */
 typedef struct refinement {
     rt_run *r;
@@ -118,8 +122,12 @@ bool rt_refine(rt_run *r, rt_team *team, rt_image *image)
         expect(&f, samples, next);
         memcpy(before, image->rgb, count * sizeof *before);
         good = rt_team_draw_range(team, &range, image, &watch, &r->status);
-        if (good && samples > 0)
-            r->stats.error = rt_refine_error(before, samples, image->rgb, range.count, count);
+        if (good && (r->stats.error == 0.0 || range.count * SHORT_ROUND >= samples))
+            r->stats.error = samples > 0
+                                 ? rt_refine_error(before, samples, image->rgb, range.count, count)
+                                 : 0.0;
+        else if (good)
+            r->stats.error *= sqrt((double)samples / next);
         samples = next;
         if (r->options.error > 0.0 && r->stats.error > 0.0 && r->stats.error <= r->options.error)
             break;
