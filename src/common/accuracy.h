@@ -13,6 +13,9 @@ enum rt_accuracy {
     RT_ACCURACY_COUNT
 };
 
+/* Where nobody names one. */
+#define RT_ACCURACY_DEFAULT RT_ACCURACY_ROBUST
+
 /* "fast", "standard", ... */
 const char *rt_accuracy_name(enum rt_accuracy level);
 

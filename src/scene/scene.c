@@ -10,7 +10,7 @@ void rt_scene_init(rt_scene *scene)
 {
     *scene = (rt_scene){0};
     scene->width = scene->height = 512;
-    scene->accuracy = RT_ACCURACY_ROBUST;
+    scene->accuracy = RT_ACCURACY_DEFAULT;
     scene->camera.at = (rt_vec3){0.0f, 0.0f, -1.0f};
     scene->camera.up = (rt_vec3){0.0f, 1.0f, 0.0f};
     scene->camera.vfov = 90.0f;

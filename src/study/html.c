@@ -62,7 +62,7 @@ static void print_caption(const rt_study *study, int which, FILE *out)
     fprintf(out, "<span><b>%s</b>", rt_study_shown_name(study, which));
     if (level < RT_ACCURACY_COUNT)
         fputs(rt_study_is_wrong(study, rt_study_find(study, 0, level))
-                  ? ": wrong where you can see it"
+                  ? ": visibly wrong"
                   : ": right, as far as you can see",
               out);
     fputs("</span>", out);

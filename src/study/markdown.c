@@ -15,8 +15,9 @@ void rt_study_print_markdown(const rt_study *study, const char *name, bool has_p
         fprintf(out, "![the scene twice, and the difference](%s-pictures.png)\n\n", name);
         rt_doc_paragraph(
             &doc,
-            "The scene at %s, at %s, and where they differ: black where not at all, and "
-            "the brighter the more.",
+            "The scene at %s, at %s, and where they differ: black where not at all, pale yellow "
+            "where by 64 of 256 steps and more. Look where it is bright, then at the same place in "
+            "the other two.",
             rt_study_shown_name(study, 0), rt_study_shown_name(study, 1));
     }
     rt_report_first(study, &doc);

@@ -60,6 +60,7 @@ void rt_report_first(const rt_study *study, rt_doc *doc)
     static const char *const columns[] = {"level", "is its picture right?",
                                           ">milliseconds a picture", "its time", NULL};
     const int samples = study->plan.samples[study->plan.sample_count - 1];
+    say_paragraph(rt_study_say_how, study, 0, doc);
     rt_doc_table_begin(doc, columns);
     for (size_t i = 0; i < study->entry_count; ++i) {
         char name[RT_STUDY_NAME_SIZE];

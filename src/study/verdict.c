@@ -50,21 +50,21 @@ static const char *doubt_in_short(enum rt_doubt kind)
     return texts[kind];
 }
 
-/* "fast and standard are wrong where you can see it". */
+/* "fast and standard are visibly wrong". */
 static void say_wrong_levels(const rt_study *study, FILE *out)
 {
     const int wrong = list_levels(study, true, out);
-    fprintf(out, " %s wrong where you can see it", wrong > 1 ? "are" : "is");
+    fprintf(out, " %s visibly wrong", wrong > 1 ? "are" : "is");
 }
 
 static void say_headline_in_doubt(const rt_study *study, enum rt_doubt doubt, FILE *out)
 {
     fprintf(out, "Cannot tell what the levels cost: %s. ", doubt_in_short(doubt));
     if (list_levels(study, true, NULL) == 0) {
-        fputs("None of them is wrong where you could see it.", out);
+        fputs("None of them is visibly wrong.", out);
         return;
     }
-    fputs("Wrong where you can see it: ", out);
+    fputs("Visibly wrong: ", out);
     if (list_levels(study, true, out) > 0 && list_levels(study, false, NULL) > 0) {
         fputs("; right: ", out);
         list_levels(study, false, out);
@@ -110,6 +110,23 @@ void rt_study_say_headline(const rt_study *study, FILE *out)
         fputc('.', out);
         say_cost_of_taken(study, taken, out);
     }
+}
+
+static bool names_a_level(const rt_study *study, size_t device)
+{
+    return study->entry_count > 1 && rt_study_recommended(study, device) < study->entry_count &&
+           rt_study_doubt_of(study, device).kind == RT_DOUBT_NONE;
+}
+
+void rt_study_say_how(const rt_study *study, size_t device, FILE *out)
+{
+    const size_t taken = rt_study_recommended(study, device);
+    if (!names_a_level(study, device))
+        return;
+    const enum rt_accuracy level = study->entries[taken].level;
+    const char *name = rt_accuracy_name(level);
+    fprintf(out, "To take it: --accuracy %s, or 'accuracy %s' in the scene%s.", name, name,
+            level == RT_ACCURACY_DEFAULT ? "; where neither names a level, it is this one" : "");
 }
 
 void rt_study_say_doubt(const rt_study *study, size_t device, FILE *out)
@@ -184,7 +201,7 @@ void rt_study_say_right(const rt_study *study, size_t entry_index, FILE *out)
     }
     const rt_study_cell *cell = rt_study_cell_at(study, worst, entry_index);
     const double pixels = (double)study->width * study->height;
-    fputs("wrong where you can see it", out);
+    fputs("visibly wrong", out);
     say_where(study, entry_index, out);
     fprintf(out, " (at %d: %.2g %% of the pixels, the worst by %d steps of 256)",
             study->plan.samples[worst], 100.0 * (double)cell->visible / pixels,
@@ -212,7 +229,7 @@ void rt_study_say_briefly(const rt_study *study, size_t entry_index, FILE *out)
 {
     char name[RT_STUDY_NAME_SIZE];
     fprintf(out, "%s: %s", rt_study_entry_name(study, entry_index, name),
-            rt_study_is_wrong(study, entry_index) ? "wrong where you can see it" : "right");
+            rt_study_is_wrong(study, entry_index) ? "visibly wrong" : "right");
     if (study->entries[entry_index].level == study->base)
         return;
     fputs(rt_study_doubt_of(study, study->entries[entry_index].device).kind != RT_DOUBT_NONE
@@ -292,6 +309,10 @@ void rt_study_say_all(const rt_study *study, FILE *out)
 {
     rt_study_say_headline(study, out);
     fputs("\n\n", out);
+    if (names_a_level(study, 0)) {
+        rt_study_say_how(study, 0, out);
+        fputs("\n\n", out);
+    }
     for (size_t d = 0; d < study->device_count; ++d) {
         if (d > 0) {
             rt_study_say_devices(study, d, out);

@@ -25,6 +25,9 @@ void rt_study_say_cost(const rt_study *study, size_t entry_index, FILE *out);
 /* Which is faster, a device or the first one, and by how much. */
 void rt_study_say_devices(const rt_study *study, size_t device, FILE *out);
 
+/* How one takes the level of the headline, on a device; nothing where it names none. */
+void rt_study_say_how(const rt_study *study, size_t device, FILE *out);
+
 /* All of it, a paragraph each, with an empty line between; ends in a newline. */
 void rt_study_say_all(const rt_study *study, FILE *out);
 

@@ -82,7 +82,7 @@ static void assert_told(const char *out, const char *report, bool plot)
         assert_says(out, name);
     }
     assert_int_equal(test_count_text(out, ".svg"), plot);
-    assert_says(out, "Cannot tell what the levels cost: too few repeats. None of them is wrong");
+    assert_says(out, "Cannot tell what the levels cost: too few repeats. None of them is visibly wrong");
     assert_says(out, "\nstandard: right, as far as you can see. What it costs: cannot tell.\n");
 }
 
@@ -113,7 +113,7 @@ static void a_tiny_study(void **state)
                      0);
     json_decref(root);
     text = read_text("tiny.md");
-    assert_says(text, "None of them is wrong where you could see it");
+    assert_says(text, "None of them is visibly wrong");
     assert_says(text, "not applicable, no mesh of the scene is closed"); /* the cone has no lid */
     assert_true((strstr(text, "(tiny.svg)") != NULL) == plots);
     assert_says(text, "(tiny-pictures.png)");
@@ -238,7 +238,7 @@ static void a_busy_machine(void **state)
                      0);
     char *text = read_text("out");
     assert_says(text, "Cannot tell what the levels cost: other programs kept the machine busy. "
-                      "None of them is wrong where you could see it.\n");
+                      "None of them is visibly wrong.\n");
     assert_says(text, "Other programs held the processors for ");
     free(text);
 }

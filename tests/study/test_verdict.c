@@ -44,8 +44,7 @@ static void assert_headline(const rt_study *study, const char *words)
     free(text);
 }
 
-#define TAKE_ROBUST                                                                                \
-    "Take robust: standard is wrong where you can see it. It takes 50 % more time than standard."
+#define TAKE_ROBUST "Take robust: standard is visibly wrong. It takes 50 % more time than standard."
 
 static void is_wrong_at(rt_study *study, enum rt_accuracy level, size_t sample_index)
 {
@@ -68,19 +67,20 @@ static void which_is_wrong(void **state)
     assert_true(rt_study_is_wrong(&study, 0));
     assert_false(rt_study_is_wrong(&study, 1));
     assert_headline(&study, TAKE_ROBUST);
-    assert_says(&study, "standard: wrong where you can see it at 4 samples a pixel (at 4: 2 % of "
+    assert_says(&study, "To take it: --accuracy robust, or 'accuracy robust' in the scene; where "
+                        "neither names a level, it is this one.");
+    assert_says(&study, "standard: visibly wrong at 4 samples a pixel (at 4: 2 % of "
                         "the pixels, the worst by 77 steps of 256).");
     is_wrong_at(&study, RT_ACCURACY_STANDARD, 2);
-    assert_says(&study, "standard: wrong where you can see it at 4 and 16 samples a pixel (at 16:");
+    assert_says(&study, "standard: visibly wrong at 4 and 16 samples a pixel (at 16:");
     is_wrong_at(&study, RT_ACCURACY_STANDARD, 0);
-    assert_says(&study, "standard: wrong where you can see it at every count of samples (at 16:");
+    assert_says(&study, "standard: visibly wrong at every count of samples (at 16:");
     assert_says(&study, "robust: right, as far as you can see. At 16 samples a pixel a picture "
                         "takes 24 ms, 50 % more time than standard (quartiles of the ratio: 1.48 "
                         "to 1.52).");
     is_wrong_at(&study, RT_ACCURACY_ROBUST, 0);
     assert_int_equal(rt_study_recommended(&study, 0), study.entry_count);
-    assert_headline(
-        &study, "standard and robust are wrong where you can see it, and no other was studied.");
+    assert_headline(&study, "standard and robust are visibly wrong, and no other was studied.");
     rt_study_clear(&study);
 }
 
@@ -124,7 +124,7 @@ static void what_is_shown(void **state)
     assert_int_equal(study.shown[1], RT_ACCURACY_COUNT);
     assert_headline(&study, "Nothing is wrong at standard that you could see.");
     is_wrong_at(&study, RT_ACCURACY_STANDARD, 0);
-    assert_headline(&study, "standard is wrong where you can see it, and no other was studied.");
+    assert_headline(&study, "standard is visibly wrong, and no other was studied.");
     rt_study_clear(&study);
 }
 
@@ -136,7 +136,7 @@ static void assert_doubt(rt_study *study, enum rt_doubt kind, const char *in_sho
     char *wanted = NULL;
     assert_int_equal(rt_study_doubt_of(study, 0).kind, kind);
     assert_true(asprintf(&wanted,
-                         "Cannot tell what the levels cost: %s. Wrong where you can see it: "
+                         "Cannot tell what the levels cost: %s. Visibly wrong: "
                          "standard; right: robust.",
                          in_short) > 0);
     assert_headline(study, wanted);
@@ -188,7 +188,7 @@ static void what_cannot_be_told(void **state)
                  "Each picture was timed 1 time; to tell times apart takes at least 5.");
     test_cell(&study, RT_ACCURACY_STANDARD, 2)->visible = 0;
     assert_headline(&study, "Cannot tell what the levels cost: too few repeats. None of them is "
-                            "wrong where you could see it.");
+                            "visibly wrong.");
     rt_study_clear(&study);
 }
 
@@ -224,7 +224,7 @@ static void the_key(void **state)
     is_wrong_at(&study, RT_ACCURACY_STANDARD, 2);
     char *standard = rt_study_said(rt_study_say_briefly, &study, 0);
     char *robust = rt_study_said(rt_study_say_briefly, &study, 1);
-    assert_string_equal(standard, "standard: wrong where you can see it");
+    assert_string_equal(standard, "standard: visibly wrong");
     assert_string_equal(robust, "robust: right; 50 % more time than standard");
     free(standard);
     free(robust);
