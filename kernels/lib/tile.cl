@@ -28,10 +28,12 @@ INLINE pixel tile_pixel(rt_tile tile)
 #if HAS_BUILTIN(__builtin_assume)
 #define ASSUME_GROUP(size)                                                                         \
     do {                                                                                           \
-        __builtin_assume(get_local_size(0) == (size));                                             \
-        __builtin_assume(get_local_size(1) == 1);                                                  \
-        __builtin_assume(get_local_size(2) == 1);                                                  \
-        __builtin_assume(get_global_offset(0) == 0);                                               \
+        const size_t x_ = get_local_size(0), y_ = get_local_size(1), z_ = get_local_size(2);       \
+        const size_t offset_ = get_global_offset(0);                                               \
+        __builtin_assume(x_ == (size));                                                            \
+        __builtin_assume(y_ == 1);                                                                 \
+        __builtin_assume(z_ == 1);                                                                 \
+        __builtin_assume(offset_ == 0);                                                            \
     } while (0)
 #else
 #define ASSUME_GROUP(size) (void)0
