@@ -38,6 +38,15 @@ typedef RT_PASTE(RT_BITS, 16) mask16;
 #pragma clang diagnostic ignored "-Wpsabi"
 #endif
 
+/* At the level fast the compiler takes for granted that nothing is infinite; what is, is told by
+ * its bits (stages/trace.cl). Clang 18 and later warn of every INFINITY then, on the user's
+ * terminal. */
+#if defined(__clang__) && defined(__has_warning)
+#if __has_warning("-Wnan-infinity-disabled")
+#pragma clang diagnostic ignored "-Wnan-infinity-disabled"
+#endif
+#endif
+
 /* Extensions of clang, which most runtimes for CPUs compile by. */
 #ifdef __has_builtin
 #define HAS_BUILTIN(name) __has_builtin(name)
