@@ -82,7 +82,8 @@ static void assert_told(const char *out, const char *report, bool plot)
         assert_says(out, name);
     }
     assert_int_equal(test_count_text(out, ".svg"), plot);
-    assert_says(out, "Cannot tell what the levels cost: too few repeats. None of them is visibly wrong");
+    assert_says(out,
+                "Cannot tell what the levels cost: too few repeats. None of them is visibly wrong");
     assert_says(out, "\nstandard: right, as far as you can see. What it costs: cannot tell.\n");
 }
 
