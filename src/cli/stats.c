@@ -105,5 +105,5 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
     json_object_set_new(root, "samples", json_integer(scene->samples));
     if (s->error > 0.0)
         json_object_set_new(root, "error", json_real(s->error));
-    return rt_json_write(root, "--stats", output, status);
+    return rt_json_write(root, RT_JSON_DIGITS, "--stats", output, status);
 }

@@ -132,5 +132,5 @@ bool rt_explain_write(const rt_explanation *e, rt_output *output, rt_status *sta
         json_object_set_new(root, "pairs", json_integer(e->pairs));
     }
     json_object_set_new(root, "effects", effects);
-    return rt_json_write(root, "--stats", output, status);
+    return rt_json_write(root, RT_JSON_DIGITS, "--stats", output, status);
 }

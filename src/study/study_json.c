@@ -85,7 +85,7 @@ bool rt_study_write_json(const rt_study *study, rt_output *output, rt_status *st
     char *verdict = rt_study_headline(study);
     json_t *root = verdict ? json_of(study, verdict) : NULL;
     free(verdict);
-    return rt_json_write(root, "--study", output, status);
+    return rt_json_write(root, RT_JSON_DIGITS_EXACT, "--study", output, status);
 }
 
 /* ---- The way back. Each is false, with a message, for what has not been written so. ---- */
