@@ -3,7 +3,6 @@
 #define _GNU_SOURCE
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +11,7 @@
 #include <unistd.h>
 
 #include "bench/bench.h"
+#include "bench/folder.h"
 #include "bench/formats.h"
 #include "bench/meshes.h"
 #include "bench/samples.h"
@@ -41,19 +41,6 @@ static void add_argument(command *c, const char *format, ...)
     if (c->count < ARGUMENTS_MAX)
         vsnprintf(c->text[c->count++], ARGUMENT_SIZE, format, arguments);
     va_end(arguments);
-}
-
-static int remove_one(const char *path, const struct stat *about, int kind, struct FTW *place)
-{
-    (void)about;
-    (void)kind;
-    (void)place;
-    return remove(path);
-}
-
-static void remove_folder(const char *path)
-{
-    nftw(path, remove_one, 16, FTW_DEPTH | FTW_PHYS);
 }
 
 /* In the child: never returns. What the program says goes to a file that is shown if it fails. */
@@ -91,7 +78,7 @@ static bool run_command(void *context, double *seconds, rt_status *status)
     snprintf(cache, sizeof cache, "%s/%s", c->folder, c->is_cold ? "cold" : "warm");
     snprintf(log, sizeof log, "%s/log", c->folder);
     if (c->is_cold)
-        remove_folder(cache);
+        bench_folder_remove(cache);
     fflush(NULL);
     const double start = rt_clock_seconds();
     const pid_t child = fork();
@@ -256,17 +243,14 @@ static bool measure_sphere(bench *b, const char *folder)
 
 static bool measure_all(bench *b)
 {
-    const char *parent = getenv("TMPDIR");
-    char folder[ARGUMENT_SIZE / 2];
-    snprintf(folder, sizeof folder, "%s/rt-bench-XXXXXX", parent && *parent ? parent : "/tmp");
-    if (!mkdtemp(folder))
-        return rt_status_fail(&b->status, RT_ERROR_OUTPUT, "bench: cannot make '%s': %s", folder,
-                              strerror(errno));
+    char folder[BENCH_FOLDER_SIZE];
+    if (!bench_folder_make(folder, &b->status))
+        return false;
     const bool good = measure_mesh(b, folder) && measure_sphere(b, folder);
     if (getenv("BENCH_KEEP"))
         fprintf(stderr, "bench: files are in %s\n", folder);
     else
-        remove_folder(folder);
+        bench_folder_remove(folder);
     return good;
 }
 

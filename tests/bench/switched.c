@@ -1,7 +1,6 @@
 #define _GNU_SOURCE
 #include "bench/switched.h"
 
-#include <ftw.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/folder.h"
 #include "common/clock.h"
 #include "common/parallel.h"
 #include "render/state.h"
@@ -149,14 +149,6 @@ static bool measure_scene(bench_switched *s, bench *b, const char *name, int siz
     return good;
 }
 
-static int remove_one(const char *path, const struct stat *about, int kind, struct FTW *walk)
-{
-    (void)about;
-    (void)kind;
-    (void)walk;
-    return remove(path);
-}
-
 /* The process of its own: the exit code is all that it says besides *s. */
 static void measure_and_exit(bench_switched *s, bench *b, const char *folder, const char *name,
                              int size)
@@ -188,18 +180,15 @@ static bool measure_apart(bench_switched *s, bench *b, const char *folder, const
 
 bool bench_switched_measure(bench_switched *switched, bench *b, const char *name, int size)
 {
-    const char *where = getenv("TMPDIR");
-    char folder[4096];
-    snprintf(folder, sizeof folder, "%s/rt-bench-XXXXXX", where && *where ? where : "/tmp");
+    char folder[BENCH_FOLDER_SIZE];
     bench_switched *shared =
         mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
         return rt_status_no_memory(&b->status, "what a process tells");
-    bool good = mkdtemp(folder) != NULL ||
-                rt_status_fail(&b->status, RT_ERROR_OUTPUT, "bench: cannot make '%s'", folder);
+    bool good = bench_folder_make(folder, &b->status);
     if (good) {
         good = measure_apart(shared, b, folder, name, size);
-        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
+        bench_folder_remove(folder);
     }
     *switched = *shared;
     munmap(shared, sizeof *shared);
