@@ -55,14 +55,14 @@ static void aim_at_slivers(const rt_scene *scene, size_t count)
     }
 }
 
-/* The errors of t in ulp where a ray hits its triangle by the truth and by what is measured; counts
- * the true hits that are lost. A nearer triangle that the ray truly hits is no error. */
-static size_t errors_of_t(const hard_way *way, rt_scene *scene, size_t count, size_t *lost,
-                          size_t *true_hits)
+/* The errors of t in ulp where a ray hits its triangle by the truth and by what is measured, in
+ * out[0..found); counts on the true hits and those that are lost. A nearer triangle that the ray
+ * truly hits is no error. */
+static size_t errors_of_t(const hard_way *way, rt_scene *scene, size_t count, double *out,
+                          size_t *lost, size_t *true_hits)
 {
     hard_tracer tracer;
     size_t found = 0;
-    *lost = *true_hits = 0;
     hard_open(&tracer, way, scene);
     hard_trace(&tracer, rays, count, hits);
     for (size_t i = 0; i < count; ++i) {
@@ -72,7 +72,7 @@ static size_t errors_of_t(const hard_way *way, rt_scene *scene, size_t count, si
         if (truth.is_hit && hits[i].primitive == RT_MISS)
             ++*lost;
         if (truth.is_hit && hits[i].primitive == (int)own)
-            errors[found++] = hard_ulps((double)hits[i].t, truth.t);
+            out[found++] = hard_ulps((double)hits[i].t, truth.t);
     }
     hard_close(&tracer);
     return found;
@@ -87,7 +87,7 @@ static void measure_slivers(const hard_way *way, const void *of, double figures[
         add_sliver(&scene, &random, *(const float *)of);
     aim_at_slivers(&scene, HARD_CHUNK);
     size_t lost = 0, true_hits = 0;
-    const size_t found = errors_of_t(way, &scene, HARD_CHUNK, &lost, &true_hits);
+    const size_t found = errors_of_t(way, &scene, HARD_CHUNK, errors, &lost, &true_hits);
     figures[0] = hard_percentile(errors, found, 0.99);
     figures[1] = hard_percentile(errors, found, 1.0);
     figures[2] = hard_percentile(errors, found, 0.5);
@@ -139,7 +139,6 @@ static void measure_huge(const hard_way *way, const void *of, double figures[])
     size_t found = 0, lost = 0, true_hits = 0;
     for (int i = 0; i < SLIVERS; ++i) {
         rt_scene scene;
-        hard_tracer tracer;
         hard_scene(&scene);
         add_huge(&scene, &random, *(const float *)of);
         for (size_t k = 0; k < each; ++k) {
@@ -147,16 +146,7 @@ static void measure_huge(const hard_way *way, const void *of, double figures[])
             random_vector(&random, 2.0f, rays[k].origin);
             random_vector(&random, 1.0f, rays[k].direction);
         }
-        hard_open(&tracer, way, &scene);
-        hard_trace(&tracer, rays, each, hits);
-        hard_close(&tracer);
-        for (size_t k = 0; k < each; ++k) {
-            const hard_truth truth = hard_true_triangle(&rays[k], &scene.triangles[0]);
-            true_hits += truth.is_hit;
-            lost += truth.is_hit && hits[k].primitive != 0;
-            if (truth.is_hit && hits[k].primitive == 0)
-                errors[found++] = hard_ulps((double)hits[k].t, truth.t);
-        }
+        found += errors_of_t(way, &scene, each, errors + found, &lost, &true_hits);
         rt_scene_clear(&scene);
     }
     figures[0] = hard_percentile(errors, found, 0.5);
@@ -282,7 +272,7 @@ static void measure_grazing(const hard_way *way, const void *of, double figures[
         }
     }
     size_t lost = 0, true_hits = 0;
-    const size_t found = errors_of_t(way, &scene, HARD_CHUNK, &lost, &true_hits);
+    const size_t found = errors_of_t(way, &scene, HARD_CHUNK, errors, &lost, &true_hits);
     figures[0] = hard_percentile(errors, found, 0.99);
     figures[1] = hard_percentile(errors, found, 0.5);
     figures[2] = 100.0 * (double)lost / (double)true_hits;

@@ -312,7 +312,6 @@ static void failures(void **state)
     assert_files("tiny", false, false);
 }
 
-/* A study of minutes, stopped after one that is there already; nothing of it is touched. */
 static bool has_ticks(void *context, double done)
 {
     int *left = context;
@@ -350,6 +349,7 @@ static void a_stop_anywhere(void **state)
     rt_scene_clear(&scene);
 }
 
+/* A study of minutes, stopped after one that is there already; nothing of it is touched. */
 static void an_interrupt(void **state)
 {
     (void)state;
