@@ -121,6 +121,14 @@ INLINE int lanes_or16(char16 m)
         error = ((a) - (sum - part_)) + ((b)-part_);                                               \
     } while (0)
 
+/* difference + error = a - b exactly, component by component. */
+#define TWO_DIFFERENCE_3(difference, error, a, b)                                                  \
+    do {                                                                                           \
+        TWO_SUM((difference).x, (error).x, (a).x, -(b).x);                                         \
+        TWO_SUM((difference).y, (error).y, (a).y, -(b).y);                                         \
+        TWO_SUM((difference).z, (error).z, (a).z, -(b).z);                                         \
+    } while (0)
+
 /* The least and the greatest of a vector's lanes. */
 #if RT_LANES == 1
 #define LEAST(v) (v)

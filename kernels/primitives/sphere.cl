@@ -70,9 +70,7 @@ INLINE void make_exact(const rays *r, real3 center, real radius, const mask rest
 {
     const real3 d = r->direction;
     real3 f, g;
-    TWO_SUM(f.x, g.x, center.x, -r->origin.x);
-    TWO_SUM(f.y, g.y, center.y, -r->origin.y);
-    TWO_SUM(f.z, g.z, center.z, -r->origin.z);
+    TWO_DIFFERENCE_3(f, g, center, r->origin);
     const real3 cross = {difference_of_products(f.y, d.z, f.z, d.y) + fma(g.y, d.z, -(g.z * d.y)),
                          difference_of_products(f.z, d.x, f.x, d.z) + fma(g.z, d.x, -(g.x * d.z)),
                          difference_of_products(f.x, d.y, f.y, d.x) + fma(g.x, d.y, -(g.y * d.x))};

@@ -73,14 +73,6 @@ INLINE mask owns(const corners *s, mask is_positive)
         rest += fma(a, b, -p_) - fma(c, d, -q_);                                                   \
     } while (0)
 
-/* From corners to origin, and what rounding takes from it. */
-#define FROM_CORNER(to, rest, corner)                                                              \
-    do {                                                                                           \
-        TWO_SUM(to.x, rest.x, r->from.x, -(corner).x);                                             \
-        TWO_SUM(to.y, rest.y, r->from.y, -(corner).y);                                             \
-        TWO_SUM(to.z, rest.z, r->from.z, -(corner).z);                                             \
-    } while (0)
-
 #define FARTHEST_OF(v) GREATEST(fabs((v).x), fabs((v).y), fabs((v).z))
 
 /* t where the corners are far away beside it, as of a floor that reaches to the horizon: a mean of
@@ -92,9 +84,9 @@ INLINE mask owns(const corners *s, mask is_positive)
 INLINE real near_t(const rays *r, real3 a, real3 b, real3 c, const mask sign, real det, real *bound)
 {
     real3 f, g, h, rest_f, rest_g, rest_h;
-    FROM_CORNER(f, rest_f, a);
-    FROM_CORNER(g, rest_g, b);
-    FROM_CORNER(h, rest_h, c);
+    TWO_DIFFERENCE_3(f, rest_f, r->from, a);
+    TWO_DIFFERENCE_3(g, rest_g, r->from, b);
+    TWO_DIFFERENCE_3(h, rest_h, r->from, c);
     real area_f, area_g, area_h, low_f, low_g, low_h;
     TWOFOLD_DIFFERENCE(area_f, low_f, h.x, g.y, h.y, g.x);
     TWOFOLD_DIFFERENCE(area_g, low_g, f.x, h.y, f.y, h.x);
