@@ -122,12 +122,10 @@ bool rt_refine(rt_run *r, rt_team *team, rt_image *image)
         expect(&f, samples, next);
         memcpy(before, image->rgb, count * sizeof *before);
         good = rt_team_draw_range(team, &range, image, &watch, &r->status);
-        if (good && (r->stats.error == 0.0 || range.count * SHORT_ROUND >= samples))
-            r->stats.error = samples > 0
-                                 ? rt_refine_error(before, samples, image->rgb, range.count, count)
-                                 : 0.0;
-        else if (good)
+        if (good && range.count * SHORT_ROUND < samples)
             r->stats.error *= sqrt((double)samples / next);
+        else if (good && samples > 0)
+            r->stats.error = rt_refine_error(before, samples, image->rgb, range.count, count);
         samples = next;
         if (r->options.error > 0.0 && r->stats.error > 0.0 && r->stats.error <= r->options.error)
             break;

@@ -25,8 +25,8 @@ typedef struct rt_walk {
     enum rt_accuracy accuracy;
 } rt_walk;
 
-/* Writes the compiler options of a part of the kernels (kernels/parts.h), none of which leaves the
- * part as it is, to options[0..RT_VARIANT_OPTIONS_SIZE). */
+/* Writes the compiler options of a part of the kernels (kernels/parts.h) to
+ * options[0..RT_VARIANT_OPTIONS_SIZE): what the part does not depend on is the same in all. */
 void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk,
                         enum rt_rounding rounding, char *options);
 
