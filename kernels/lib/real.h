@@ -113,12 +113,11 @@ INLINE int lanes_or16(char16 m)
 #define LESSER_N(a, b) select(b, a, (a) < (b))
 #define GREATER_N(a, b) select(b, a, (a) > (b))
 
-/* sum + error = a + b exactly (Knuth). */
+/* sum + error = a + b exactly (Knuth). Of vectors and of scalars, hence without a variable. */
 #define TWO_SUM(sum, error, a, b)                                                                  \
     do {                                                                                           \
         sum = (a) + (b);                                                                           \
-        const real part_ = sum - (a);                                                              \
-        error = ((a) - (sum - part_)) + ((b)-part_);                                               \
+        error = ((a) - (sum - (sum - (a)))) + ((b) - (sum - (a)));                                 \
     } while (0)
 
 /* difference + error = a - b exactly, component by component. */
@@ -127,6 +126,14 @@ INLINE int lanes_or16(char16 m)
         TWO_SUM((difference).x, (error).x, (a).x, -(b).x);                                         \
         TWO_SUM((difference).y, (error).y, (a).y, -(b).y);                                         \
         TWO_SUM((difference).z, (error).z, (a).z, -(b).z);                                         \
+    } while (0)
+
+/* (a, b, c, d) to a b - c d as a sum of two numbers, as if in twice the precision. */
+#define TWOFOLD_DIFFERENCE(type, sum, rest, a, b, c, d)                                            \
+    do {                                                                                           \
+        const type p_ = (a) * (b), q_ = (c) * (d);                                                 \
+        TWO_SUM(sum, rest, p_, -q_);                                                               \
+        rest += fma(a, b, -p_) - fma(c, d, -q_);                                                   \
     } while (0)
 
 /* The least and the greatest of a vector's lanes. */

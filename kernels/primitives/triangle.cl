@@ -151,6 +151,66 @@ INLINE number within_corners(number x, number a, number b, number c)
     return BETWEEN(x, LESSER_1(LESSER_1(a, b), c), GREATER_1(GREATER_1(a, b), c));
 }
 
+#if RT_ACCURACY >= RT_ROBUST
+/* Corners whose sizes are together so many times those of the ray's origin and the point are far
+ * away. */
+#define FAR_CORNERS_OF_START 64
+/* A good part of the way to the middle, beside which what t is off is small. */
+#define POINT_DRAW (256 * RT_HALF_ULP)
+
+/* On a floor that reaches to the horizon, a sum of corners by weight is anywhere within a rounding
+ * of the corners. There rays start at the point on the ray, drawn toward the triangle's middle and
+ * brought onto its plane. How far it is off the plane is the volume that it spans with two edges
+ * over the area that they span, by sums and products that carry their rounding errors (Knuth;
+ * Ogita, Rump and Oishi 2005). `sizes` are the corners', axis by axis. */
+INLINE void start_at_point(vec3 a, vec3 b, vec3 c, vec3 sizes, vec3 normal, vec3 origin, surface *s)
+{
+    const number far = sizes.x + sizes.y + sizes.z;
+    const number near = fabs(origin.x) + fabs(origin.y) + fabs(origin.z) + fabs(s->point.x) +
+                        fabs(s->point.y) + fabs(s->point.z);
+    const int is_far = far > (number)FAR_CORNERS_OF_START * near;
+    const number draw = (number)POINT_DRAW * (near * moderating_factor(sizes));
+    const number third = (number)1.0f / (number)3.0f;
+    const vec3 point = {fma(draw, fma(third, a.x + b.x + c.x, -s->point.x), s->point.x),
+                        fma(draw, fma(third, a.y + b.y + c.y, -s->point.y), s->point.y),
+                        fma(draw, fma(third, a.z + b.z + c.z, -s->point.z), s->point.z)};
+    vec3 f, g, h, rest_f, rest_g, rest_h, n, low;
+    TWO_DIFFERENCE_3(f, rest_f, point, a);
+    TWO_DIFFERENCE_3(g, rest_g, b, a);
+    TWO_DIFFERENCE_3(h, rest_h, c, a);
+    const number of_g = moderating_factor(g), of_h = moderating_factor(h);
+    g = SCALE(g, of_g);
+    h = SCALE(h, of_h);
+    rest_g = SCALE(rest_g, of_g);
+    rest_h = SCALE(rest_h, of_h);
+    TWOFOLD_DIFFERENCE(number, n.x, low.x, g.y, h.z, g.z, h.y);
+    TWOFOLD_DIFFERENCE(number, n.y, low.y, g.z, h.x, g.x, h.z);
+    TWOFOLD_DIFFERENCE(number, n.z, low.z, g.x, h.y, g.y, h.x);
+    const vec3 by_g = CROSS(vec3, rest_g, h), by_h = CROSS(vec3, g, rest_h);
+    low.x += by_g.x + by_h.x;
+    low.y += by_g.y + by_h.y;
+    low.z += by_g.z + by_h.z;
+    const vec3 parts = MULTIPLY(f, n);
+    number two, three, low_two, low_three;
+    TWO_SUM(two, low_two, parts.x, parts.y);
+    TWO_SUM(three, low_three, two, parts.z);
+    const number low_parts =
+        fma(f.x, n.x, -parts.x) + fma(f.y, n.y, -parts.y) + fma(f.z, n.z, -parts.z);
+    const number volume =
+        three + (((low_two + low_three) + low_parts) + (DOT(f, low) + DOT(rest_f, n)));
+    const number inverse = DIVIDE_1(1.0f, DOT(n, normal));
+    const number off = volume * inverse;
+    const number reach = GREATER_1(GREATER_1(fabs(f.x), fabs(f.y)), fabs(f.z));
+    const number lift = fma((number)RT_START_BOUND,
+                            EXTENT_ALONG(normal, fabs(point.x), fabs(point.y), fabs(point.z)),
+                            (number)(512 * RT_HALF_ULP * RT_HALF_ULP) * (reach * inverse));
+    s->start = (vec3){is_far ? fma(-off, normal.x, point.x) : s->start.x,
+                      is_far ? fma(-off, normal.y, point.y) : s->start.y,
+                      is_far ? fma(-off, normal.z, point.z) : s->start.z};
+    s->lift = is_far ? lift : s->lift;
+}
+#endif
+
 /* The normals are made from the edges as they are and made unit last: made unit before the
  * barycentric test they would shrink the triangle, left as they are they would turn highlights
  * white. */
@@ -175,9 +235,12 @@ INLINE void triangle_surface(const traced *w, int index, __global const rt_trian
     const number pw = 1.0f - pu - pv;
     s->start = (vec3){fma(pv, c.x, fma(pu, b.x, pw * a.x)), fma(pv, c.y, fma(pu, b.y, pw * a.y)),
                       fma(pv, c.z, fma(pu, b.z, pw * a.z))};
-    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, SUM_OF_SIZES(a.x, b.x, c.x),
-                                                    SUM_OF_SIZES(a.y, b.y, c.y),
-                                                    SUM_OF_SIZES(a.z, b.z, c.z));
+    const vec3 sizes = {SUM_OF_SIZES(a.x, b.x, c.x), SUM_OF_SIZES(a.y, b.y, c.y),
+                        SUM_OF_SIZES(a.z, b.z, c.z)};
+    s->lift = (number)RT_START_BOUND * EXTENT_ALONG(normal, sizes.x, sizes.y, sizes.z);
+#if RT_ACCURACY >= RT_ROBUST
+    start_at_point(a, b, c, sizes, normal, origin, s);
+#endif
     s->within =
         (vec3){within_corners(s->point.x, a.x, b.x, c.x), within_corners(s->point.y, a.y, b.y, c.y),
                within_corners(s->point.z, a.z, b.z, c.z)};

@@ -65,14 +65,6 @@ INLINE mask owns(const corners *s, mask is_positive)
            (MASK(s->wc != (real)0.0f) | ~(beyond_c ^ is_positive));
 }
 
-/* (a, b, c, d) to a b - c d as a sum of two numbers, as if in twice the precision. */
-#define TWOFOLD_DIFFERENCE(sum, rest, a, b, c, d)                                                  \
-    do {                                                                                           \
-        const real p_ = (a) * (b), q_ = (c) * (d);                                                 \
-        TWO_SUM(sum, rest, p_, -q_);                                                               \
-        rest += fma(a, b, -p_) - fma(c, d, -q_);                                                   \
-    } while (0)
-
 #define FARTHEST_OF(v) GREATEST(fabs((v).x), fabs((v).y), fabs((v).z))
 
 /* t where the corners are far away beside it, as of a floor that reaches to the horizon: a mean of
@@ -88,9 +80,9 @@ INLINE real near_t(const rays *r, real3 a, real3 b, real3 c, const mask sign, re
     TWO_DIFFERENCE_3(g, rest_g, r->from, b);
     TWO_DIFFERENCE_3(h, rest_h, r->from, c);
     real area_f, area_g, area_h, low_f, low_g, low_h;
-    TWOFOLD_DIFFERENCE(area_f, low_f, h.x, g.y, h.y, g.x);
-    TWOFOLD_DIFFERENCE(area_g, low_g, f.x, h.y, f.y, h.x);
-    TWOFOLD_DIFFERENCE(area_h, low_h, g.x, f.y, g.y, f.x);
+    TWOFOLD_DIFFERENCE(real, area_f, low_f, h.x, g.y, h.y, g.x);
+    TWOFOLD_DIFFERENCE(real, area_g, low_g, f.x, h.y, f.y, h.x);
+    TWOFOLD_DIFFERENCE(real, area_h, low_h, g.x, f.y, g.y, f.x);
     const real part_f = f.z * area_f, part_g = g.z * area_g, part_h = h.z * area_h;
     low_f = fma(f.z, low_f, fma(f.z, area_f, -part_f));
     low_g = fma(g.z, low_g, fma(g.z, area_g, -part_g));

@@ -3,9 +3,9 @@
  * A next ray must neither hit the very primitive that it starts on nor start behind a neighbour.
  * - It starts on the primitive, not on the ray: on a sphere at center + radius * normal, on a
  *   triangle at the sum of its corners by weight. `t` would bring in the error of the whole way.
- *   Where t itself is good to a few ulp (robust spheres, and double's) the better of the two
- * counts: the floor of a small scene may be a sphere so large that center and radius cannot tell
- * where its surface is as well as a ray from nearby can.
+ *   Where t itself is good to a few ulp (at robust and double) and the primitive is far larger than
+ *   the point is far, as the floor of a small scene may be, the point on the ray is the better one:
+ *   neither center and radius nor corners tell then where the surface is as a ray from nearby can.
  * - On a triangle the weights w, u, v are drawn toward 1/3 by RT_START_DRAW, so that a start at an
  *   edge, where rounding could put it across, lies inside by more than rounding can do.
  * - The start is then moved along the geometric normal, to the side that the ray leaves on, by
@@ -13,7 +13,7 @@
  *   corners' magnitudes, axis by axis, or of |center| + radius |normal|. The bound covers the start
  *   itself (3 roundings of the weighted sum, 2 of w, 1 of the move) and what the next test makes of
  *   it (pbrt 4th ed. 6.8): it is relative to the numbers at hand, so it is right at every scale,
- * and there is no absolute constant. */
+ *   and there is no absolute constant. */
 
 /* In units of the number type's half ulp at 1. */
 #define RT_START_BOUND (8 * RT_HALF_ULP)

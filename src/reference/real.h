@@ -119,15 +119,23 @@ static inline vec cross(vec a, vec b)
                  FMA(a.x, b.y, -(a.y * b.x))};
 }
 
-/* `a` times the power of two that brings its largest component to [1, 2): exact, and products of
- * what comes out neither overflow nor vanish. */
-static inline vec moderate(vec a)
+/* The exponent of the power of two that brings a vector's largest component to [1, 2), where
+ * products neither overflow nor vanish; 0 where there is none. */
+static inline int moderating_exponent(vec a)
 {
     const real largest = FMAX(FABS(a.x), FMAX(FABS(a.y), FABS(a.z)));
-    if (!(largest > 0 && isfinite(largest)))
-        return a;
-    const int k = -ILOGB(largest);
+    return largest > 0 && isfinite(largest) ? -ILOGB(largest) : 0;
+}
+
+/* `a` times 2^k: exact. */
+static inline vec scaled(vec a, int k)
+{
     return (vec){LDEXP(a.x, k), LDEXP(a.y, k), LDEXP(a.z, k)};
+}
+
+static inline vec moderate(vec a)
+{
+    return scaled(a, moderating_exponent(a));
 }
 
 /* NaN for the zero vector. */

@@ -89,20 +89,104 @@ static real drawn(real weight)
     return FMA(START_DRAW, (real)1 / 3 - weight, weight);
 }
 
+/* Corners whose sizes are together so many times those of the ray's origin and the point are far
+ * away. */
+#define FAR 64
+#define POINT_DRAW (256 * HALF_ULP)
+
+static real total(vec a)
+{
+    return a.x + a.y + a.z;
+}
+
+/* An edge of moderate length: exact as value and rest. */
+typedef struct edge {
+    vec value, rest;
+} edge;
+
+static edge edge_of(vec to, vec from)
+{
+    const twofold x = sum_of(to.x, -from.x), y = sum_of(to.y, -from.y), z = sum_of(to.z, -from.z);
+    const vec value = {x.value, y.value, z.value}, rest = {x.rest, y.rest, z.rest};
+    return (edge){value, rest};
+}
+
+static edge moderate_edge(edge e)
+{
+    const int k = moderating_exponent(e.value);
+    return (edge){scaled(e.value, k), scaled(e.rest, k)};
+}
+
+/* a b - c d, to be made up by its rest. */
+static twofold difference_of(real a, real b, real c, real d)
+{
+    const twofold left = product_of(a, b), right = product_of(c, d);
+    const twofold all = sum_of(left.value, -right.value);
+    return (twofold){all.value, all.rest + (left.rest - right.rest)};
+}
+
+/* How far `point` is off the plane, along the unit normal, as if in twice the precision; in
+ * `doubt`, what that can be off. */
+static real off_plane(vec point, vec a, vec b, vec c, vec normal, real *doubt)
+{
+    const edge f = edge_of(point, a);
+    const edge g = moderate_edge(edge_of(b, a)), h = moderate_edge(edge_of(c, a));
+    const twofold x = difference_of(g.value.y, h.value.z, g.value.z, h.value.y);
+    const twofold y = difference_of(g.value.z, h.value.x, g.value.x, h.value.z);
+    const twofold z = difference_of(g.value.x, h.value.y, g.value.y, h.value.x);
+    const vec n = {x.value, y.value, z.value}, rest = {x.rest, y.rest, z.rest};
+    const vec low = plus(rest, plus(cross(g.rest, h.value), cross(g.value, h.rest)));
+    const twofold fx = product_of(f.value.x, n.x), fy = product_of(f.value.y, n.y),
+                  fz = product_of(f.value.z, n.z);
+    const twofold xy = sum_of(fx.value, fy.value);
+    const twofold xyz = sum_of(xy.value, fz.value);
+    const real volume = xyz.value + (((xy.rest + xyz.rest) + (fx.rest + fy.rest + fz.rest)) +
+                                     (dot(f.value, low) + dot(f.rest, n)));
+    const real inverse = (real)1 / dot(n, normal);
+    const vec m = magnitudes(f.value);
+    *doubt = 512 * HALF_ULP * HALF_ULP * (FMAX(m.x, FMAX(m.y, m.z)) * inverse);
+    return volume * inverse;
+}
+
+/* Where corners are far away beside the point, their sum by weight is anywhere within a rounding of
+ * theirs: next rays start on the plane below the point. */
+static void start_below_point(const rt_triangle *triangle, const ray *r, vec normal, vec sizes,
+                              surface *s)
+{
+    const real far = total(sizes);
+    const vec near = magnitudes(s->point);
+    const real size =
+        FABS(r->origin.x) + FABS(r->origin.y) + FABS(r->origin.z) + near.x + near.y + near.z;
+    if (!(far > FAR * size))
+        return;
+    const vec a = triangle_corner(triangle, 0), b = triangle_corner(triangle, 1),
+              c = triangle_corner(triangle, 2);
+    const vec inward = add_scaled(plus(plus(a, b), c), (real)1 / 3, times(s->point, -1));
+    const vec point =
+        add_scaled(inward, POINT_DRAW * LDEXP(size, moderating_exponent(sizes)), s->point);
+    real doubt;
+    const real off = off_plane(point, a, b, c, normal, &doubt);
+    s->foot = add_scaled(normal, -off, point);
+    s->lift = FMA(START_BOUND, dot(magnitudes(point), magnitudes(normal)), doubt);
+}
+
 surface NAME(surface_of_triangle)(const rt_scene *scene, const ray *r, size_t i, const hit *h)
 {
     const rt_triangle *triangle = &scene->triangles[i];
     surface s = {.material = NULL};
     s.point = add_scaled(r->direction, h->t, r->origin);
-    NAME(face)(&s, triangle_normal(triangle), r->direction);
+    const vec normal = triangle_normal(triangle);
+    NAME(face)(&s, normal, r->direction);
     const vec a = triangle_corner(triangle, 0);
     const vec b = triangle_corner(triangle, 1);
     const vec c = triangle_corner(triangle, 2);
     s.within = within_corners(triangle, s.point);
     const real to_b = drawn(h->u), to_c = drawn(h->v);
     s.foot = add_scaled(c, to_c, add_scaled(b, to_b, times(a, (real)1 - to_b - to_c)));
-    s.lift = NAME(lift_for)(START_BOUND, plus(plus(magnitudes(a), magnitudes(b)), magnitudes(c)),
-                            s.facing);
+    const vec sizes = plus(plus(magnitudes(a), magnitudes(b)), magnitudes(c));
+    s.lift = NAME(lift_for)(START_BOUND, sizes, s.facing);
+    if (is_robust(scene))
+        start_below_point(triangle, r, normal, sizes, &s);
     if (scene->triangle_normals[i] >= 0) {
         const float *n = scene->normals + RT_NORMAL_COMPONENTS * (size_t)scene->triangle_normals[i];
         s.normal = interpolated_normal(n, h->u, h->v, s.facing);

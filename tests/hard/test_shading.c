@@ -1,4 +1,4 @@
-/* Light at its limits: rows 24, 25, 28, 30 and 31 of the hard cases. */
+/* Light at its limits: rows 24, 25, 28, 30, 31 and 41 of the hard cases. */
 #define _GNU_SOURCE
 #include "hard/exact.h"
 
@@ -260,9 +260,152 @@ static void exponents(void **state)
     hard_finish();
 }
 
+/* ---- A shadow on a floor that reaches to the horizon ---- */
+
+#define SLOPES 4
+#define BALL 0.6
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int k = 0; k < 3; ++k)
+        c[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+static void make_unit(double v[3])
+{
+    const double length = sqrt(dot(v, v));
+    for (int k = 0; k < 3; ++k)
+        v[k] /= length;
+}
+
+/* A ball above a huge triangle: `foot` is below it on the plane, `along` and `normal` are unit, and
+ * light comes down by `sun`. */
+typedef struct floor_scene {
+    float corners[9];
+    double foot[3], along[3], normal[3], ball[3], sun[3];
+} floor_scene;
+
+static void make_floor(floor_scene *f, test_random *random, float size)
+{
+    double e1[3], e2[3];
+    for (int k = 0; k < 6; ++k)
+        f->corners[k] = test_random_float(random, -size, size);
+    for (int k = 0; k < 3; ++k) {
+        f->corners[6 + k] = -f->corners[k] - f->corners[3 + k];
+        e1[k] = (double)f->corners[3 + k] - (double)f->corners[k];
+        e2[k] = (double)f->corners[6 + k] - (double)f->corners[k];
+        f->along[k] = e1[k];
+    }
+    cross(e1, e2, f->normal);
+    make_unit(f->normal);
+    make_unit(f->along);
+    double height = 0.0;
+    for (int k = 0; k < 3; ++k)
+        height += f->normal[k] * (double)f->corners[k];
+    for (int k = 0; k < 3; ++k) {
+        f->foot[k] = height * f->normal[k];
+        f->ball[k] = (double)(float)(f->foot[k] + 0.7 * f->normal[k]);
+        f->sun[k] = (double)(float)(0.5 * f->along[k] - f->normal[k]);
+    }
+}
+
+/* How far a line through `from` passes the ball's centre. */
+static double passes_at(const floor_scene *f, const double from[3], const double along[3])
+{
+    double unit[3] = {along[0], along[1], along[2]}, way[3], off[3];
+    make_unit(unit);
+    for (int k = 0; k < 3; ++k)
+        way[k] = f->ball[k] - from[k];
+    cross(way, unit, off);
+    return sqrt(dot(off, off));
+}
+
+enum floor_pixel { NOT_SURE, LIT, IN_SHADOW };
+
+/* What the pixel of that direction shows, where that is the floor, and not so near the rim of the
+ * ball or of its shadow that rounding could tell. */
+static enum floor_pixel floor_pixel(const floor_scene *f, const double eye[3], const double d[3])
+{
+    double down[3], point[3];
+    for (int k = 0; k < 3; ++k)
+        down[k] = f->foot[k] - eye[k];
+    const double t = dot(down, f->normal) / dot(d, f->normal);
+    for (int k = 0; k < 3; ++k)
+        point[k] = eye[k] + t * d[k];
+    if (!(t > 0.0) || dot(point, point) > 1e4 || passes_at(f, eye, d) < BALL + 0.02)
+        return NOT_SURE;
+    const double off = passes_at(f, point, f->sun) - BALL;
+    return fabs(off) < 0.02 ? NOT_SURE : off < 0.0 ? IN_SHADOW : LIT;
+}
+
+static void measure_shadow(const hard_way *way, const void *of, double figures[])
+{
+    test_random random = {41};
+    figures[0] = figures[1] = 0.0;
+    for (int slope = 0; slope < SLOPES; ++slope) {
+        floor_scene f;
+        rt_scene scene;
+        rt_image image;
+        make_floor(&f, &random, *(const float *)of);
+        const double *o = f.foot, *a = f.along, *n = f.normal;
+        hard_read(&scene,
+                  "image width %d height %d\nshadows on\nmaterial m kd 1 1 1\n"
+                  "camera from %.9g %.9g %.9g at %.9g %.9g %.9g up %.9g %.9g %.9g vfov 50\n"
+                  "light directional direction %.9g %.9g %.9g\n"
+                  "sphere center %.9g %.9g %.9g radius %.9g material m\n",
+                  SIDE, SIDE, o[0] + 6 * a[0] + 1.5 * n[0], o[1] + 6 * a[1] + 1.5 * n[1],
+                  o[2] + 6 * a[2] + 1.5 * n[2], o[0], o[1], o[2], n[0], n[1], n[2], f.sun[0],
+                  f.sun[1], f.sun[2], f.ball[0], f.ball[1], f.ball[2], BALL);
+        hard_add_triangle(&scene, f.corners);
+        hard_draw(way, &scene, &image);
+        const rt_view v = rt_scene_view(&scene);
+        int shadowed = 0;
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            double d[3];
+            for (int k = 0; k < 3; ++k)
+                d[k] = v.right[k] * (2 * (i % SIDE) + 1 - SIDE) +
+                       v.up[k] * (SIDE - 1 - 2 * (i / SIDE)) + v.forward[k];
+            const enum floor_pixel truth = floor_pixel(&f, v.origin, d);
+            shadowed += truth == IN_SHADOW;
+            figures[0] += truth == IN_SHADOW && !(image.rgb[3 * i] == 0.0f);
+            figures[1] += truth == LIT && !(image.rgb[3 * i] > 0.0f);
+        }
+        assert_true(shadowed > 16);
+        rt_image_clear(&image);
+        rt_scene_clear(&scene);
+    }
+}
+
+static void shadow(void **state)
+{
+    (void)state;
+    static const hard_naive by_corners = {.mutant = MUTANT_START_BY_FAR_CORNERS, .at_robust = true};
+    static const float sizes[] = {1e4f, 1e6f, 1e8f};
+    static const char *const names[] = {"a ball of 0.6 on a plane of 1e4",
+                                        "a ball of 0.6 on a plane of 1e6",
+                                        "a ball of 0.6 on a plane of 1e8"};
+    for (int i = 0; i < 3; ++i) {
+        const hard_case c = {.row = 41,
+                             .name = names[i],
+                             .figures = {{"pixels of its shadow lit", {TOLD, TOLD, 0, 0}},
+                                         {"pixels of the floor unlit", {TOLD, TOLD, 0, 0}}},
+                             .naives = {i > 0 ? &by_corners : NULL},
+                             .measure = measure_shadow,
+                             .of = &sizes[i]};
+        hard_hold(&c);
+    }
+    hard_finish();
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(horizon), cmocka_unit_test(touching),
-                                       cmocka_unit_test(normals), cmocka_unit_test(exponents)};
+                                       cmocka_unit_test(normals), cmocka_unit_test(exponents),
+                                       cmocka_unit_test(shadow)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
