@@ -152,8 +152,8 @@ typedef struct rt_turn {
     int sample;       /* of each pixel */
     int begin;        /* the first of the samples that are drawn now; those before are summed up */
     int divisor;      /* of the sums: the number of samples, or 1 where more are to come */
-    int rays;         /* in the ray array, a multiple of RT_BLOCK_RAYS */
     int light;        /* whose shadow; the number of lights where ambient light is meant */
+    int from, rays;   /* the rays that the probes are for, multiples of RT_BLOCK_RAYS */
     int first, count; /* of the light's samples, those that the probes are for */
 } rt_turn;
 

@@ -58,7 +58,8 @@ static size_t rays_an_item(const rt_renderer *r, enum rt_stage kernel)
     if (kernel == RT_STAGE_TRACE || kernel == RT_STAGE_OCCLUDE)
         return (size_t)r->packet;
     const bool takes_blocks = kernel == RT_STAGE_CAMERA || kernel == RT_STAGE_SHADE ||
-                              kernel == RT_STAGE_SHADOW_RAYS || kernel == RT_STAGE_AMBIENT_RAYS;
+                              kernel == RT_STAGE_SHADOW_RAYS || kernel == RT_STAGE_AMBIENT_RAYS ||
+                              kernel == RT_STAGE_SHADOW_TALLY;
     return takes_blocks && r->lanes > 1 ? RT_BLOCK_RAYS : 1;
 }
 

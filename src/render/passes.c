@@ -47,22 +47,34 @@ static bool launch(passes *p, enum rt_stage stage, size_t rays)
     return rt_flight_launch(p->f, p->r, stage, rays, p->status);
 }
 
-/* The probes to light `row`, or of ambient light: as many samples at a time as the probes' array
- * holds, so that a few rays that go on are not a few work-groups a launch. */
+static size_t lesser(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* The probes to light `row`, or of ambient light, as many at a time as their array holds: of all
+ * samples for a part of the rays, so that what the probes from a hit have in common is found once,
+ * and of a share of the samples where those for a single block do not fit. */
 static bool probe(passes *p, int row, int samples, enum rt_stage rays, enum rt_stage any_hit,
                   enum rt_stage tally)
 {
-    /* Both are set long before; the analyzer loses sight of one of them over the launches.
-     * NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) */
-    const int most = p->r->capacity / (int)p->rays;
+    const size_t capacity = (size_t)p->r->capacity, all = (size_t)samples;
+    const size_t fit = capacity / RT_BLOCK_RAYS / all * RT_BLOCK_RAYS;
+    const size_t most_rays = lesser(fit ? fit : RT_BLOCK_RAYS, p->rays);
+    const size_t most_samples = lesser(capacity / most_rays, all);
     p->turn.light = row;
-    for (int first = 0; first < samples; first += most) {
-        p->turn.first = first;
-        p->turn.count = samples - first < most ? samples - first : most;
-        const size_t probes = p->rays * (size_t)p->turn.count;
-        if (!set_turn(p, rays) || !launch(p, rays, probes) || !launch(p, any_hit, probes) ||
-            !set_turn(p, RT_STAGE_SHADOW_TALLY) || !launch(p, tally, p->rays))
-            return false;
+    for (size_t from = 0; from < p->rays; from += most_rays) {
+        const size_t count = lesser(p->rays - from, most_rays);
+        p->turn.from = (cl_int)from;
+        p->turn.rays = (cl_int)count;
+        for (size_t first = 0; first < all; first += most_samples) {
+            p->turn.first = (cl_int)first;
+            p->turn.count = (cl_int)lesser(all - first, most_samples);
+            if (!set_turn(p, rays) || !launch(p, rays, count) ||
+                !launch(p, any_hit, count * (size_t)p->turn.count) ||
+                !set_turn(p, RT_STAGE_SHADOW_TALLY) || !launch(p, tally, count))
+                return false;
+        }
     }
     return true;
 }
@@ -138,7 +150,6 @@ static bool draw_sample(passes *p, bool hits, const rt_watch *watch, double done
         return false;
     bool is_first = true;
     while (p->rays) {
-        p->turn.rays = (cl_int)p->rays;
         if (!launch(p, is_first ? RT_STAGE_TRACE : RT_STAGE_NEXT_TRACE, p->rays) ||
             (is_first && hits && !launch(p, RT_STAGE_HITS, p->rays)) || !probe_all(p) ||
             !launch(p, is_first ? RT_STAGE_SHADE : RT_STAGE_NEXT_SHADE, p->rays))
