@@ -61,6 +61,12 @@ INLINE uint sequence_at(rt_tile tile, int slot, uint seed, uint purpose, int bou
 #define EACH_RAY(k)                                                                                \
     _Pragma("clang loop vectorize(assume_safety)") for (size_t k = 0; k < RT_ITEM_RAYS; ++k)
 
+/* Sets of three numbers a ray of a work-item: one array a component, so that loops over the rays
+ * become vectors. */
+#define ITEM_VECTORS (3 * RT_ITEM_RAYS)
+#define ITEM_VECTOR(array, k) LOAD3(array, RT_ITEM_RAYS, k)
+#define STORE_ITEM_VECTOR(v, array, k) STORE3(v, array, RT_ITEM_RAYS, k)
+
 /* Whether one of them hits anything. */
 INLINE int any_hit(__global const int *hit_index, size_t first)
 {

@@ -39,12 +39,6 @@ INLINE uint sequence_of_probe(rt_tile tile, uint seed, uint purpose, __global co
 /* Among all samples of a pixel, over all of its rays of as many bounces. */
 #define INDEX_OF(s, samples) ((uint)(turn.sample * (samples) + turn.first + (s)))
 
-/* Sets of three numbers a ray of a work-item: one array a component, so that loops over the rays
- * become vectors. */
-#define ITEM_VECTORS (3 * RT_ITEM_RAYS)
-#define ITEM_VECTOR(array, k) LOAD3(array, RT_ITEM_RAYS, k)
-#define STORE_ITEM_VECTOR(v, array, k) STORE3(v, array, RT_ITEM_RAYS, k)
-
 #define NO_PROBES                                                                                  \
     EACH_SAMPLE(s)                                                                                 \
     {                                                                                              \

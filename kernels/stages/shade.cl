@@ -6,9 +6,10 @@
  * with R the mirror of L about N and V toward the eye, all unit. The sign of N.L does not gate the
  * highlight.
  *
- * A work-item shades a block of rays where vectors are wide: the loop over them is one that
- * compilers turn into vectors, since nothing in it branches, and a block that hits nothing is
- * passed over. Where a ray is a work-item, it branches. */
+ * A work-item shades a block of rays where vectors are wide, step by step: compilers turn the loop
+ * over the rays into vectors where nothing in it branches or calls, so that pictures and fog, which
+ * do, have loops of their own. A block that hits nothing is passed over. Where a ray is a
+ * work-item, it branches. */
 
 /* x to a whole power by repeated squaring, lowest bit first: the same bits on every device. A
  * library's pow takes longer than tracing the ray. 0 to the power of 0 is 1. */
@@ -110,43 +111,80 @@ INLINE void add_light(__global const rt_light *light, __global const rt_material
     color->z = fma(light->b * free, fma((number)m->ks_b, specular, kd.z * diffuse), color->z);
 }
 
-/* What ka and kd of a material are multiplied by at a point. */
-INLINE void tone_at(const shading *w, size_t i, int index, const surface *s,
-                    __global const rt_material *m, vec3 *tone)
+/* What the steps of a work-item's shading hand on. `tone` is what ka and kd are multiplied by; of a
+ * ray that misses, all is of primitive 0 and is dropped in the end. */
+typedef struct shade_item {
+    number point[ITEM_VECTORS], normal[ITEM_VECTORS], facing[ITEM_VECTORS], tone[ITEM_VECTORS],
+        color[ITEM_VECTORS];
+    int outside[RT_ITEM_RAYS];
+} shade_item;
+
+INLINE int index_or_first(const shading *w, size_t i)
 {
-    FLAGS_OF(w);
-    *tone = (vec3){1.0f, 1.0f, 1.0f};
-    if (ON(CHECKER)) {
-        /* Loads and cells of all rays: what only some rays need would be taken ray by ray. */
-        const vec3 other = {m->checker_r, m->checker_g, m->checker_b};
-        const int is_odd = (m->cell > 0.0f) & in_odd_cell(&s->within, (number)m->cell);
-        tone->x = is_odd ? other.x : (number)1.0f;
-        tone->y = is_odd ? other.y : (number)1.0f;
-        tone->z = is_odd ? other.z : (number)1.0f;
-    }
-    if (ON(TEXTURE) && m->texture >= 0) {
-        texture_place at;
-        vec3 picture;
-        picture_point(&w->pictures, &w->hits, i, index, s, !m->clamp, &at);
-        picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, &at, &picture);
-        *tone = MULTIPLY(*tone, picture);
-    }
+    const int index = w->hits.hit_index[i];
+    return index != RT_MISS ? index : 0;
 }
 
-/* The light that the surface sends back along ray i from its hit `index`. */
-INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
+INLINE void find_surface(const shading *w, size_t i, shade_item *item, size_t k)
+{
+    FLAGS_OF(w);
+    const size_t step = w->hits.step;
+    const int index = index_or_first(w, i);
+    const vec3 direction = LOAD3(w->hits.rays + RT_RAY_DX * step, step, i);
+    surface s;
+    surface_of(&w->hits, i, index, direction, &s);
+    STORE_ITEM_VECTOR(s.point, item->point, k);
+    STORE_ITEM_VECTOR(s.normal, item->normal, k);
+    if (RT_TEXTURE) {
+        STORE_ITEM_VECTOR(s.facing, item->facing, k);
+        item->outside[k] = s.outside;
+    }
+    vec3 tone = {1.0f, 1.0f, 1.0f};
+    if (ON(CHECKER)) {
+        /* Loads and cells of all rays: what only some rays need would be taken ray by ray. */
+        __global const rt_material *m = w->materials + w->material_of[index];
+        const vec3 other = {m->checker_r, m->checker_g, m->checker_b};
+        const int is_odd = (m->cell > 0.0f) & in_odd_cell(&s.within, (number)m->cell);
+        tone.x = is_odd ? other.x : (number)1.0f;
+        tone.y = is_odd ? other.y : (number)1.0f;
+        tone.z = is_odd ? other.z : (number)1.0f;
+    }
+    STORE_ITEM_VECTOR(tone, item->tone, k);
+}
+
+INLINE void paint(const shading *w, size_t i, shade_item *item, size_t k)
+{
+    const int index = w->hits.hit_index[i];
+    if (index == RT_MISS)
+        return;
+    __global const rt_material *m = w->materials + w->material_of[index];
+    if (m->texture < 0)
+        return;
+    surface s;
+    s.facing = ITEM_VECTOR(item->facing, k);
+    s.outside = item->outside[k];
+    texture_place at;
+    vec3 picture;
+    picture_point(&w->pictures, &w->hits, i, index, &s, !m->clamp, &at);
+    picture_color(&w->pictures, w->pictures.textures[m->texture], m->nearest, &at, &picture);
+    const vec3 tone = ITEM_VECTOR(item->tone, k);
+    STORE_ITEM_VECTOR(MULTIPLY(tone, picture), item->tone, k);
+}
+
+/* The light that the surface sends back along ray i. */
+INLINE void light_surface(const shading *w, size_t i, shade_item *item, size_t k)
 {
     FLAGS_OF(w);
     const size_t step = w->hits.step;
     const vec3 direction = LOAD3(w->hits.rays + RT_RAY_DX * step, step, i);
+    __global const rt_material *m = w->materials + w->material_of[index_or_first(w, i)];
     surface s;
-    surface_of(&w->hits, i, index, direction, &s);
-    __global const rt_material *m = w->materials + w->material_of[index];
+    s.point = ITEM_VECTOR(item->point, k);
+    s.normal = ITEM_VECTOR(item->normal, k);
     vec3 ka = {m->ka_r, m->ka_g, m->ka_b};
     vec3 kd = {m->kd_r, m->kd_g, m->kd_b};
     if (RT_CHECKER || RT_TEXTURE) {
-        vec3 tone;
-        tone_at(w, i, index, &s, m, &tone);
+        const vec3 tone = ITEM_VECTOR(item->tone, k);
         ka = MULTIPLY(ka, tone);
         kd = MULTIPLY(kd, tone);
     }
@@ -158,17 +196,17 @@ INLINE void light_from(const shading *w, size_t i, int index, vec3 *color)
     }
 #if RT_LIGHTS >= 0
 #pragma unroll
-    for (int k = 0; k < RT_LIGHTS; ++k) {
+    for (int light_index = 0; light_index < RT_LIGHTS; ++light_index) {
 #else
-    for (int k = 0; k < w->light_count; ++k) {
+    for (int light_index = 0; light_index < w->light_count; ++light_index) {
 #endif
-        __global const rt_light *light = w->lights + k;
+        __global const rt_light *light = w->lights + light_index;
         number free = 1.0f;
         if ((ON(HARD_SHADOWS) || ON(SOFT_SHADOWS)) && light->shadow)
-            free = (number)w->open[(size_t)k * step + i] / (number)light->samples;
+            free = (number)w->open[(size_t)light_index * step + i] / (number)light->samples;
         add_light(light, m, kd, &s, direction, free, &sum);
     }
-    *color = sum;
+    STORE_ITEM_VECTOR(sum, item->color, k);
 }
 
 /* What fog on a way of length t, infinite for a miss, leaves of a colour; `clear` is the part. */
@@ -218,23 +256,13 @@ INLINE void add_to_path(const shading *w, size_t i, vec3 color)
     }
 }
 
-/* Shades ray i; `may_hit` is 0 where it is known to hit nothing. */
-INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
+/* What becomes of a ray's colour: in a loop of its own where that takes calls or branches. */
+#define RT_CALLS_AT_END (RT_FOG || RT_NEXT)
+INLINE void put_color(const shading *w, size_t i, const shade_item *item, size_t k)
 {
     FLAGS_OF(w);
     const size_t step = w->hits.step;
-    vec3 color;
-    sky(w, i, &color);
-    if (may_hit) {
-        /* Of a ray that misses, whatever comes of primitive 0 is dropped. */
-        const int index = w->hits.hit_index[i];
-        const int is_hit = index != RT_MISS;
-        vec3 lit;
-        light_from(w, i, is_hit ? index : 0, &lit);
-        color.x = is_hit ? lit.x : color.x;
-        color.y = is_hit ? lit.y : color.y;
-        color.z = is_hit ? lit.z : color.z;
-    }
+    vec3 color = ITEM_VECTOR(item->color, k);
     if (RT_NEXT) {
         /* Not what hangs over the tile's edge or fills up a block. */
         if (w->hits.rays[RT_RAY_TMIN * step + i] < w->hits.rays[RT_RAY_TMAX * step + i])
@@ -249,6 +277,31 @@ INLINE void shade_ray(const shading *w, size_t i, const int may_hit)
         color = (vec3){color.x + sum.x, color.y + sum.y, color.z + sum.z};
     }
     STORE3(color, w->colors, step, i);
+}
+
+/* The background in the place of what has no surface. */
+INLINE void put_sky(const shading *w, size_t i, shade_item *item, size_t k, const int may_hit)
+{
+    vec3 color;
+    sky(w, i, &color);
+    if (may_hit) {
+        const int is_hit = w->hits.hit_index[i] != RT_MISS;
+        const vec3 lit = ITEM_VECTOR(item->color, k);
+        color.x = is_hit ? lit.x : color.x;
+        color.y = is_hit ? lit.y : color.y;
+        color.z = is_hit ? lit.z : color.z;
+    }
+    STORE_ITEM_VECTOR(color, item->color, k);
+}
+
+/* All but finding the surface and painting it; `may_hit` is 0 where nothing is known to be hit. */
+INLINE void color_ray(const shading *w, size_t i, shade_item *item, size_t k, const int may_hit)
+{
+    if (may_hit)
+        light_surface(w, i, item, k);
+    put_sky(w, i, item, k, may_hit);
+    if (!RT_CALLS_AT_END)
+        put_color(w, i, item, k);
 }
 
 #if RT_HAS_STAGES
@@ -283,12 +336,26 @@ rt_shade(TRACED_PARAMETERS, __global const int *material_of, __global const rt_m
         .flags = flags,
     };
     const size_t first = get_global_id(0) * RT_ITEM_RAYS;
+    shade_item item;
     if (any_hit(hit_index, first)) {
         EACH_RAY(k)
-        shade_ray(&w, first + k, 1);
+        {
+            find_surface(&w, first + k, &item, k);
+            if (!RT_TEXTURE)
+                color_ray(&w, first + k, &item, k, 1);
+        }
+        if (ON(TEXTURE))
+            for (size_t k = 0; k < RT_ITEM_RAYS; ++k)
+                paint(&w, first + k, &item, k);
+        if (RT_TEXTURE)
+            EACH_RAY(k)
+        color_ray(&w, first + k, &item, k, 1);
     } else {
         EACH_RAY(k)
-        shade_ray(&w, first + k, 0);
+        color_ray(&w, first + k, &item, k, 0);
     }
+    if (RT_CALLS_AT_END)
+        EACH_RAY(k)
+    put_color(&w, first + k, &item, k);
 }
 #endif
