@@ -63,15 +63,15 @@ static bool draw(rt_run *r, rt_image *image, rt_team **team)
 
 static void tell_what_is_cut(rt_run *r, const rt_team *team)
 {
-    const rt_render_times times = rt_team_times(team);
-    const double part = rt_render_times_cut(&times);
+    const rt_ray_counts rays = team ? rt_team_times(team).rays : r->stats.scalar_rays;
+    const double part = rt_ray_counts_cut_part(&rays);
     if (part < CUT_UNSAID)
         return;
     rt_status_warn(
         &r->status,
         "rt: warning: %zu mirror and refracted rays ended at 'depth %d': up to %.2g %% of "
         "the picture's light is missing; a greater 'depth' follows them on",
-        times.cut_rays, r->scene.depth, 100.0 * part);
+        rays.cut, r->scene.depth, 100.0 * part);
     rt_run_warn(r);
 }
 
@@ -109,8 +109,7 @@ bool rt_action_render(rt_run *r)
     bool good = rt_run_begin(r) && open_outputs(r, &out) && rt_run_choose_devices(r) &&
                 draw(r, &image, &team) && rt_run_check_picture(r, &image);
     if (good) {
-        if (team)
-            tell_what_is_cut(r, team);
+        tell_what_is_cut(r, team);
         /* A picture that differs is still written: it is what there is to look at. */
         const bool verified = !r->options.verify || rt_action_verify(r, &image);
         good = (verified || r->status.code == RT_DIFFERENT) && write_picture(r, &image, &out) &&

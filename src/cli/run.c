@@ -123,8 +123,9 @@ bool rt_run_build_tree(rt_run *r, const rt_bvh **tree)
 bool rt_run_draw_scalar(rt_run *r, bool in_double, rt_image *image)
 {
     rt_run_begin_progress(r);
-    const bool good = (in_double ? rt_scalar_double_render
-                                 : rt_scalar_float_render)(&r->scene, image, &r->watch, &r->status);
+    const bool good =
+        (in_double ? rt_scalar_double_render_counted : rt_scalar_float_render_counted)(
+            &r->scene, image, &r->stats.scalar_rays, &r->watch, &r->status);
     rt_progress_clear(&r->progress);
     return good;
 }

@@ -37,21 +37,21 @@ static json_t *effects_of(const rt_effects *e)
     return effects;
 }
 
-/* Of all devices; of the scalar path only the primary rays are counted, and no part is timed. */
+/* Of all devices; of the scalar path the rays are counted, and no part is timed. */
 static rt_render_times times_of(const rt_stats *s)
 {
     if (s->team)
         return rt_team_times(s->team);
-    return (rt_render_times){.primary_rays = (size_t)s->scene->width * (size_t)s->scene->height};
+    return (rt_render_times){.rays = s->scalar_rays};
 }
 
-static json_t *rays_of(const rt_render_times *t)
+static json_t *rays_of(const rt_ray_counts *rays)
 {
-    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(t->primary_rays),
-                     "shadow", count_of(t->shadow_rays), "occlusion", count_of(t->occlusion_rays),
-                     "reflection", count_of(t->reflection_rays), "refraction",
-                     count_of(t->refraction_rays), "total", count_of(rt_render_times_rays(t)),
-                     "ended", count_of(t->ended_rays), "cut", count_of(t->cut_rays));
+    return json_pack("{s:o,s:o,s:o,s:o,s:o,s:o,s:o,s:o}", "primary", count_of(rays->primary),
+                     "shadow", count_of(rays->shadow), "occlusion", count_of(rays->occlusion),
+                     "reflection", count_of(rays->reflection), "refraction",
+                     count_of(rays->refraction), "total", count_of(rt_ray_counts_total(rays)),
+                     "ended", count_of(rays->ended), "cut", count_of(rays->cut));
 }
 
 /* What is not reading back counts as the kernels'. */
@@ -95,13 +95,14 @@ bool rt_stats_write(const rt_stats *s, rt_output *output, rt_status *status)
     const rt_scene *scene = s->scene;
     const rt_render_times t = times_of(s);
     const names n = names_of(s);
-    json_t *root = json_pack(
-        "{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:o,s:o,s:o,s:o,s:f,s:o,s:o,s:o,s:o}", "device", n.device,
-        "platform", n.platform, "driver", n.driver, "accuracy", n.accuracy, "lanes", n.lanes,
-        "width", scene->width, "height", scene->height, "primitives", primitives_of(scene),
-        "lights", count_of(scene->light_count), "materials", count_of(scene->material_count),
-        "rays", rays_of(&t), "light_cut", rt_render_times_cut(&t), "seconds", seconds_of(s, &t),
-        "stages", stages_of(&t), "effects", effects_of(s->effects), "devices", devices_of(s));
+    json_t *root =
+        json_pack("{s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:o,s:o,s:o,s:o,s:f,s:o,s:o,s:o,s:o}", "device",
+                  n.device, "platform", n.platform, "driver", n.driver, "accuracy", n.accuracy,
+                  "lanes", n.lanes, "width", scene->width, "height", scene->height, "primitives",
+                  primitives_of(scene), "lights", count_of(scene->light_count), "materials",
+                  count_of(scene->material_count), "rays", rays_of(&t.rays), "light_cut",
+                  rt_ray_counts_cut_part(&t.rays), "seconds", seconds_of(s, &t), "stages",
+                  stages_of(&t), "effects", effects_of(s->effects), "devices", devices_of(s));
     json_object_set_new(root, "samples", json_integer(scene->samples));
     if (s->error > 0.0)
         json_object_set_new(root, "error", json_real(s->error));

@@ -12,7 +12,8 @@ typedef struct rt_stats {
     enum rt_target target;
     const rt_scene *scene;
     const rt_effects *effects;
-    const rt_team *team;                      /* NULL for the scalar path */
+    const rt_team *team;                      /* NULL for the scalar path, ... */
+    rt_ray_counts scalar_rays;                /* ... which takes these */
     double parse, accel, draw, encode, total; /* wall seconds */
     double error; /* root mean square in 8-bit steps, where it was estimated, else 0 */
 } rt_stats;

@@ -203,6 +203,7 @@ static int go_on(const scalar_world *world, const branch *b, const surface *s, b
 {
     const rt_material *m = s->material;
     const vec d = b->r.direction;
+    rt_ray_counts *counts = world->counts;
     branch behind = *b;
     vec refracted = d;
     route r = {b->weight * (real)m->reflect, 0};
@@ -219,12 +220,25 @@ static int go_on(const scalar_world *world, const branch *b, const surface *s, b
         r.refracted = b->weight * ((real)m->transmit * (1 - part));
         r.mirrored = b->weight * FMA((real)m->transmit, part, (real)m->reflect);
     }
-    if (!(r.mirrored + r.refracted > 0) || b->samples.step >= (uint32_t)world->scene->depth)
-        return 0;
     const real most = FMAX(b->tint.x, FMAX(b->tint.y, b->tint.z));
+    const real all = r.mirrored + r.refracted;
+    if (!(all > 0))
+        return 0;
+    if (b->samples.step >= (uint32_t)world->scene->depth) {
+        if (counts) {
+            ++counts->cut;
+            counts->cut_light += (double)(all * most);
+        }
+        return 0;
+    }
     const pair random = NAME(sample_point)(&b->samples, FOR_ROUTE, b->samples.sample);
     r = chosen(r, most, b->samples.step, random);
     int count = 0;
+    if (counts) {
+        counts->ended += !(r.mirrored + r.refracted > 0);
+        counts->refraction += r.refracted > 0;
+        counts->reflection += r.mirrored > 0;
+    }
     if (r.refracted > 0)
         next[count++] = sent(&behind, s, times(s->facing, -1), refracted, r.refracted);
     if (r.mirrored > 0)

@@ -152,6 +152,7 @@ typedef struct scalar_world {
     rt_media media;            /* owned; `list` is NULL where there was no memory */
     struct scalar_node *nodes; /* owned */
     int *order;                /* owned: primitives as the leaves have them */
+    rt_ray_counts *counts;     /* the caller's: where rays that are traced are put down, or NULL */
 } scalar_world;
 
 /* tree.c. The scene must outlive the world and stay as it is. */

@@ -23,6 +23,7 @@ typedef struct picture {
     const rt_watch *watch;
     eye e;
     pthread_mutex_t lock; /* of what follows, and of the watch */
+    rt_ray_counts counts;
     int rows_done;
     bool is_stopped;
 } picture;
@@ -74,7 +75,7 @@ static ray primary_ray(const rt_scene *scene, const eye *e, const stream *sample
     return (ray){plus(e->origin, lens), unit(direction), 0, INFINITY};
 }
 
-static void draw_pixel(const picture *p, int x, int y)
+static void draw_pixel(const picture *p, const scalar_world *world, int x, int y)
 {
     const size_t i = (size_t)y * (size_t)p->image->width + (size_t)x;
     const real count = (real)p->scene->samples;
@@ -82,8 +83,8 @@ static void draw_pixel(const picture *p, int x, int y)
     for (int sample = 0; sample < p->scene->samples; ++sample) {
         const stream samples = {(uint32_t)x, (uint32_t)y, (uint32_t)sample, 0, p->scene->seed};
         const ray r = primary_ray(p->scene, &p->e, &samples);
-        const hit h = NAME(closest)(&p->world, &r);
-        sum = plus(sum, NAME(radiance)(&p->world, &r, &h, &samples));
+        const hit h = NAME(closest)(world, &r);
+        sum = plus(sum, NAME(radiance)(world, &r, &h, &samples));
         if (sample == 0 && p->image->hits)
             p->image->hits[i] = (rt_hit){h.primitive, (float)LDEXP(h.t, -p->scene->unit_exponent),
                                          (float)h.u, (float)h.v};
@@ -103,12 +104,20 @@ static void draw_row(void *context, size_t row)
     const bool is_stopped = p->is_stopped;
     ++p->rows_done;
     pthread_mutex_unlock(&p->lock);
-    for (int x = 0; x < p->image->width && !is_stopped; ++x)
-        draw_pixel(p, x, (int)row);
+    if (is_stopped)
+        return;
+    rt_ray_counts counts = {.primary = (size_t)p->image->width * (size_t)p->scene->samples};
+    scalar_world world = p->world;
+    world.counts = &counts;
+    for (int x = 0; x < p->image->width; ++x)
+        draw_pixel(p, &world, x, (int)row);
+    pthread_mutex_lock(&p->lock);
+    rt_ray_counts_add(&p->counts, &counts);
+    pthread_mutex_unlock(&p->lock);
 }
 
-bool NAME(render_by)(const rt_scalar_tree *tree, const rt_scene *scene, rt_image *image,
-                     const rt_watch *watch, rt_status *status)
+static bool render(const rt_scalar_tree *tree, const rt_scene *scene, rt_image *image,
+                   rt_ray_counts *counts, const rt_watch *watch, rt_status *status)
 {
     picture p = {.scene = scene,
                  .world = NAME(world_open)(scene, tree),
@@ -125,10 +134,24 @@ bool NAME(render_by)(const rt_scalar_tree *tree, const rt_scene *scene, rt_image
         return rt_status_no_memory(status, "media");
     if (p.is_stopped)
         return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
+    if (counts)
+        *counts = p.counts;
     return true;
+}
+
+bool NAME(render_by)(const rt_scalar_tree *tree, const rt_scene *scene, rt_image *image,
+                     const rt_watch *watch, rt_status *status)
+{
+    return render(tree, scene, image, NULL, watch, status);
+}
+
+bool NAME(render_counted)(const rt_scene *scene, rt_image *image, rt_ray_counts *counts,
+                          const rt_watch *watch, rt_status *status)
+{
+    return render(NULL, scene, image, counts, watch, status);
 }
 
 bool NAME(render)(const rt_scene *scene, rt_image *image, const rt_watch *watch, rt_status *status)
 {
-    return NAME(render_by)(NULL, scene, image, watch, status);
+    return render(NULL, scene, image, NULL, watch, status);
 }

@@ -13,11 +13,17 @@
 #include "scene/scene.h"
 
 /* Renders the whole scene; hit records are filled in where the picture has room for them. Fails
- * only when the watch stops it, with code RT_INTERRUPTED. */
+ * when the watch stops it, with code RT_INTERRUPTED, or without memory. */
 bool rt_scalar_float_render(const rt_scene *scene, rt_image *image, const rt_watch *watch,
                             rt_status *status);
 bool rt_scalar_double_render(const rt_scene *scene, rt_image *image, const rt_watch *watch,
                              rt_status *status);
+
+/* The same, with the rays that it took. */
+bool rt_scalar_float_render_counted(const rt_scene *scene, rt_image *image, rt_ray_counts *counts,
+                                    const rt_watch *watch, rt_status *status);
+bool rt_scalar_double_render_counted(const rt_scene *scene, rt_image *image, rt_ray_counts *counts,
+                                     const rt_watch *watch, rt_status *status);
 
 /* The nearest hits of `count` rays. */
 void rt_scalar_float_trace(const rt_scene *scene, const rt_ray *rays, size_t count, rt_hit *hits);

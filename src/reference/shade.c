@@ -22,13 +22,21 @@ static vec way_to(const rt_light *light, const surface *s)
     return unit(light->w != 0.0f ? minus(place, s->point) : place);
 }
 
+/* Whether anything keeps a light's rays from a surface. */
+static bool in_the_way(const scalar_world *world, const ray *shadow)
+{
+    if (world->counts)
+        world->counts->shadow += shadow->tmax > 0;
+    return NAME(occluded)(world, shadow);
+}
+
 /* Whether something is between `from` and the point `to` of a light. */
 static bool is_hidden(const scalar_world *world, const rt_light *light, vec from, vec to)
 {
     const vec way = minus(to, from);
     const vec direction = unit(way);
     const ray shadow = {from, direction, 0, dot(way, direction) * (1 - (real)light->gap)};
-    return NAME(occluded)(world, &shadow);
+    return in_the_way(world, &shadow);
 }
 
 /* The part of the light number `index` that reaches the surface, 0 to 1. */
@@ -41,7 +49,7 @@ static real visibility(const scalar_world *world, int index, const surface *s, v
     const vec from = NAME(start)(s, to_light);
     if (light->w == 0.0f) {
         const ray shadow = {from, to_light, 0, INFINITY};
-        return NAME(occluded)(world, &shadow) ? 0 : 1;
+        return in_the_way(world, &shadow) ? 0 : 1;
     }
     const vec center = vec_of(light->x, light->y, light->z);
     if (!(light->radius > 0.0f))
@@ -77,6 +85,8 @@ static real openness(const scalar_world *world, const surface *s, const stream *
         if (!(dot(direction, s->facing) > 0))
             continue; /* a smooth normal leans over: this way lies the surface itself */
         const ray probe = {from, direction, 0, (real)scene->occlusion_distance};
+        if (world->counts)
+            ++world->counts->occlusion;
         open += !NAME(occluded)(world, &probe);
     }
     return (real)open / (real)count;

@@ -113,8 +113,8 @@ static bool pack(passes *p)
     for (size_t i = 0; i < blocks; ++i) {
         first[i] = total;
         total += counts[i * RT_COUNT_COMPONENTS + RT_COUNT_ALL];
-        r->times.refraction_rays += (size_t)counts[i * RT_COUNT_COMPONENTS + RT_COUNT_REFRACTED];
-        r->times.reflection_rays += (size_t)(counts[i * RT_COUNT_COMPONENTS + RT_COUNT_ALL] -
+        r->times.rays.refraction += (size_t)counts[i * RT_COUNT_COMPONENTS + RT_COUNT_REFRACTED];
+        r->times.rays.reflection += (size_t)(counts[i * RT_COUNT_COMPONENTS + RT_COUNT_ALL] -
                                              counts[i * RT_COUNT_COMPONENTS + RT_COUNT_REFRACTED]);
     }
     const size_t rays = p->rays;
@@ -204,7 +204,7 @@ bool rt_passes_start(rt_renderer *r, const rt_tile *tile, const rt_sample_range 
                                            RT_STAGE_AMBIENT_RAYS, RT_STAGE_NEXT};
     f->busy = true;
     r->times.tiles++;
-    r->times.primary_rays += (size_t)tile->width * (size_t)tile->height * (size_t)range->count;
+    r->times.rays.primary += (size_t)tile->width * (size_t)tile->height * (size_t)range->count;
     for (size_t i = 0; i < sizeof placed / sizeof *placed; ++i)
         if (!set_tile(p, placed[i]))
             return false;
@@ -243,10 +243,10 @@ bool rt_passes_read_tallies(rt_renderer *r, rt_status *status)
                                        NULL),
                status))
         return false;
-    r->times.shadow_rays = sums[RT_TALLY_SHADOW];
-    r->times.occlusion_rays = sums[RT_TALLY_AMBIENT];
-    r->times.cut_rays = sums[RT_TALLY_CUT];
-    r->times.cut_light = (double)sums[RT_TALLY_CUT_PART] * (double)RT_CUT_UNIT;
-    r->times.ended_rays = sums[RT_TALLY_ENDED];
+    r->times.rays.shadow = sums[RT_TALLY_SHADOW];
+    r->times.rays.occlusion = sums[RT_TALLY_AMBIENT];
+    r->times.rays.cut = sums[RT_TALLY_CUT];
+    r->times.rays.cut_light = (double)sums[RT_TALLY_CUT_PART] * (double)RT_CUT_UNIT;
+    r->times.rays.ended = sums[RT_TALLY_ENDED];
     return true;
 }

@@ -17,17 +17,6 @@ const rt_render_times *rt_renderer_times(const rt_renderer *renderer)
     return &renderer->times;
 }
 
-size_t rt_render_times_rays(const rt_render_times *t)
-{
-    return t->primary_rays + t->shadow_rays + t->occlusion_rays + t->reflection_rays +
-           t->refraction_rays;
-}
-
-double rt_render_times_cut(const rt_render_times *t)
-{
-    return t->primary_rays ? t->cut_light / (double)t->primary_rays : 0.0;
-}
-
 static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
                   rt_status *status)
 {

@@ -53,12 +53,8 @@ typedef struct rt_render_times {
     double program, upload, readback;
     double stages[RT_STAGE_COUNT];
     size_t launches[RT_STAGE_COUNT];
-    size_t tiles, primary_rays;
-    size_t shadow_rays, occlusion_rays, reflection_rays, refraction_rays;
-    size_t ended_rays; /* paths that Russian roulette ended */
-    size_t cut_rays;   /* paths that `depth` cut off, ... */
-    double cut_light;  /* ... and what they would have brought at most if all is white, where each
-                        * primary ray brings 1 */
+    size_t tiles;
+    rt_ray_counts rays;
 } rt_render_times;
 
 typedef struct rt_renderer rt_renderer;
@@ -98,12 +94,6 @@ bool rt_renderer_occluded(rt_renderer *renderer, const rt_ray *rays, size_t coun
 
 int rt_renderer_lanes(const rt_renderer *renderer);
 const rt_render_times *rt_renderer_times(const rt_renderer *renderer);
-
-/* Of all kinds together. */
-size_t rt_render_times_rays(const rt_render_times *times);
-
-/* The part of the picture's light that `depth` cut off, at most: if all that was cut is white. */
-double rt_render_times_cut(const rt_render_times *times);
 
 /* "camera", "trace", ... */
 const char *rt_stage_name(enum rt_stage stage);

@@ -229,7 +229,7 @@ rt_team_share rt_team_share_of(const rt_team *team, size_t i)
     const member *m = &team->members[i];
     const rt_render_times *times = rt_renderer_times(m->renderer);
     return (rt_team_share){m->device, rt_renderer_lanes(m->renderer), times->tiles,
-                           times->primary_rays, m->seconds};
+                           times->rays.primary, m->seconds};
 }
 
 static double longer(double a, double b)
@@ -250,14 +250,7 @@ rt_render_times rt_team_times(const rt_team *team)
             sum.launches[stage] += times->launches[stage];
         }
         sum.tiles += times->tiles;
-        sum.primary_rays += times->primary_rays;
-        sum.shadow_rays += times->shadow_rays;
-        sum.occlusion_rays += times->occlusion_rays;
-        sum.reflection_rays += times->reflection_rays;
-        sum.refraction_rays += times->refraction_rays;
-        sum.ended_rays += times->ended_rays;
-        sum.cut_rays += times->cut_rays;
-        sum.cut_light += times->cut_light;
+        rt_ray_counts_add(&sum.rays, &times->rays);
     }
     return sum;
 }

@@ -35,7 +35,7 @@ bool rt_study_draw(study_state *s, size_t entry_index, rt_renderer *renderer, rt
     t->wall = rt_clock_seconds() - start;
     t->kernel = stages_of(after) - stages_of(&before);
     t->readback = after->readback - before.readback;
-    t->rays = rt_render_times_rays(after) - rt_render_times_rays(&before);
+    t->rays = rt_ray_counts_total(&after->rays) - rt_ray_counts_total(&before.rays);
     if (!(t->kernel > 0.0))
         device->kernel_is_wall = true;
     if (device->kernel_is_wall)

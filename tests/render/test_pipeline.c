@@ -4,8 +4,10 @@
 #include "support/support.h"
 
 #include <glob.h>
+#include <math.h>
 #include <string.h>
 
+#include "reference/scalar.h"
 #include "render/programs.h"
 
 #define WALK                                                                                       \
@@ -151,8 +153,8 @@ static void phong_alone_launches_four_kernels(void **state)
                             i == RT_STAGE_RESOLVE;
         assert_int_equal(times->launches[i], needed ? 1 : 0);
     }
-    assert_int_equal(times->shadow_rays + times->occlusion_rays + times->reflection_rays +
-                         times->refraction_rays,
+    assert_int_equal(times->rays.shadow + times->rays.occlusion + times->rays.reflection +
+                         times->rays.refraction,
                      0);
     rt_renderer_free(renderer);
     rt_image_clear(&image);
@@ -189,15 +191,54 @@ static void rays_are_counted(void **state)
         rt_renderer *renderer = test_renderer(&scene, &(rt_render_options){0});
         assert_good(rt_renderer_draw(renderer, &image, NULL, &status), &status);
         const rt_render_times *times = rt_renderer_times(renderer);
-        assert_int_equal(times->shadow_rays, cases[i].shadow);
-        assert_int_equal(times->occlusion_rays, cases[i].occlusion);
-        assert_int_equal(times->reflection_rays, cases[i].reflection);
-        assert_int_equal(times->refraction_rays, cases[i].refraction);
+        assert_int_equal(times->rays.shadow, cases[i].shadow);
+        assert_int_equal(times->rays.occlusion, cases[i].occlusion);
+        assert_int_equal(times->rays.reflection, cases[i].reflection);
+        assert_int_equal(times->rays.refraction, cases[i].refraction);
         rt_renderer_free(renderer);
         rt_image_clear(&image);
         rt_scene_clear(&scene);
     }
 #undef PANE
+}
+
+/* The scalar path takes the same rays, one path after another. */
+static void assert_as_many_rays(const char *path)
+{
+    rt_scene scene;
+    rt_image image;
+    rt_ray_counts expected;
+    rt_status status = RT_STATUS_INIT;
+    test_scene_file(&scene, path);
+    scene.width = 48;
+    scene.height = 27;
+    assert_good(rt_image_init(&image, scene.width, scene.height, false, &status), &status);
+    rt_renderer *renderer = test_renderer(&scene, &(rt_render_options){0});
+    assert_good(rt_renderer_draw(renderer, &image, NULL, &status), &status);
+    const rt_ray_counts rays = rt_renderer_times(renderer)->rays;
+    assert_good(rt_scalar_float_render_counted(&scene, &image, &expected, NULL, &status), &status);
+    assert_int_equal(rays.primary, expected.primary);
+    assert_int_equal(rays.shadow, expected.shadow);
+    assert_int_equal(rays.occlusion, expected.occlusion);
+    assert_int_equal(rays.reflection, expected.reflection);
+    assert_int_equal(rays.refraction, expected.refraction);
+    assert_int_equal(rays.ended, expected.ended);
+    assert_int_equal(rays.cut, expected.cut);
+    /* The device's is a sum of whole parts. */
+    assert_true(fabs(rays.cut_light - expected.cut_light) <=
+                (double)RT_CUT_UNIT * (double)expected.cut + 1e-6 * expected.cut_light);
+    assert_true(rt_ray_counts_total(&rays) > rays.primary);
+    rt_renderer_free(renderer);
+    rt_image_clear(&image);
+    rt_scene_clear(&scene);
+}
+
+static void rays_are_as_many_as_the_scalar_paths(void **state)
+{
+    (void)state;
+    assert_as_many_rays("scenes/gallery.txt");
+    assert_as_many_rays("scenes/panes.txt");
+    assert_as_many_rays("scenes/soft.txt");
 }
 
 static void assert_same_pictures(const rt_image *a, const rt_image *b)
@@ -296,8 +337,8 @@ static void rays_end_at_the_depth(void **state)
     rt_renderer *renderer = test_renderer(&scene, &(rt_render_options){0});
     assert_good(rt_renderer_draw(renderer, &image, NULL, &status), &status);
     const rt_render_times *times = rt_renderer_times(renderer);
-    assert_int_equal(times->reflection_rays, 7 * 64);
-    assert_int_equal(times->refraction_rays, 0);
+    assert_int_equal(times->rays.reflection, 7 * 64);
+    assert_int_equal(times->rays.refraction, 0);
     assert_int_equal(times->launches[RT_STAGE_NEXT_TRACE], 7);
     for (int i = 0; i < 3 * 64; ++i)
         assert_near(image.rgb[i], 8 * 0.125, 0.0);
@@ -355,6 +396,7 @@ int main(void)
         cmocka_unit_test(what_each_effect_adds),
         cmocka_unit_test(phong_alone_launches_four_kernels),
         cmocka_unit_test(rays_are_counted),
+        cmocka_unit_test(rays_are_as_many_as_the_scalar_paths),
         cmocka_unit_test(tiles_and_lanes_do_not_show),
         cmocka_unit_test(all_effects_compiled_in),
         cmocka_unit_test(depth_0),

@@ -206,7 +206,7 @@ static void only_the_stages_called_for(void **state)
     assert_int_equal(times->launches[RT_STAGE_SHADE], 4);
     assert_int_equal(times->launches[RT_STAGE_RESOLVE], 4);
     assert_int_equal(times->launches[RT_STAGE_HITS], 0);
-    assert_int_equal(times->primary_rays, 512 * 512);
+    assert_int_equal(times->rays.primary, 512 * 512);
     rt_renderer_free(renderer);
     rt_image_clear(&image);
     rt_scene_clear(&scene);

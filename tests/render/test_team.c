@@ -109,7 +109,7 @@ static void the_picture_is_one_devices(void **state)
         assert_int_equal(rays, 2 * cases[i].width * cases[i].height);
         const rt_render_times times = rt_team_times(team);
         assert_int_equal(times.tiles, tiles);
-        assert_int_equal(times.primary_rays, rays);
+        assert_int_equal(times.rays.primary, rays);
         assert_int_equal(times.launches[RT_STAGE_CAMERA], tiles);
         end(team);
     }
