@@ -1,8 +1,10 @@
 /* From argv to the exit code. */
 #include <stdio.h>
+#include <string.h>
 
 #include "cli/actions.h"
 #include "common/clock.h"
+#include "opencl/compiler.h"
 #include "scene_text/grammar.h"
 
 static bool act(rt_run *run)
@@ -33,6 +35,9 @@ static bool act(rt_run *run)
 
 int main(int argc, char **argv)
 {
+    if (argc == 4 && strcmp(argv[1], RT_COMPILER_CALL) == 0)
+        return rt_compiler_main(argv[2], argv[3]);
+    rt_compiler_set("/proc/self/exe");
     rt_run run = {.start = rt_clock_seconds()};
     bool good = rt_options_read(&run.options, argc, argv, &run.status) && act(&run);
     if (!good)

@@ -28,11 +28,14 @@ static bool make_team(rt_run *r, bool with_hits, rt_team **team)
     const rt_render_options options = {.lanes = r->options.lanes,
                                        .tile = r->options.tile,
                                        .with_hits = with_hits,
-                                       .effects = &r->effects};
+                                       .effects = &r->effects,
+                                       .building = &r->building};
     const rt_bvh *tree = NULL;
     if (!rt_run_build_tree(r, &tree))
         return false;
+    rt_run_begin_progress(r);
     *team = rt_team_new(r->chosen, r->chosen_count, &r->scene, tree, &options, &r->status);
+    rt_progress_clear(&r->progress);
     return *team != NULL;
 }
 

@@ -20,8 +20,10 @@ static bool has_hits(const rt_image *image)
 /* Draws the picture again, on the first device and with the kernels that are there. */
 static bool draw_hits(rt_run *r, rt_image *image)
 {
-    const rt_render_options options = {
-        .lanes = r->options.lanes, .with_hits = true, .effects = &r->effects};
+    const rt_render_options options = {.lanes = r->options.lanes,
+                                       .with_hits = true,
+                                       .effects = &r->effects,
+                                       .building = &rt_signals_watch};
     const rt_bvh *tree = r->options.accel == RT_ACCEL_NONE ? NULL : &r->bvh;
     rt_scene scene = r->scene; /* its arrays are shared */
     if (scene.samples > SAMPLES_MOST)

@@ -24,6 +24,17 @@ static const char *time_of(double seconds, char text[TIME_SIZE])
     return text;
 }
 
+static void print(rt_progress *p, const char *line, int width, double now)
+{
+    if (p->in_place)
+        fprintf(p->out, "\r%-*s", p->width, line); /* blanks over the end of a longer one */
+    else
+        fprintf(p->out, "%s\n", line);
+    fflush(p->out);
+    p->width = width;
+    p->next = now + (p->in_place ? SECONDS_IN_PLACE : SECONDS_OF_LINES);
+}
+
 void rt_progress_tell(rt_progress *p, double done, double now)
 {
     if (!p->out || now < p->next)
@@ -36,13 +47,17 @@ void rt_progress_tell(rt_progress *p, double done, double now)
     if (done > 0.0)
         width += snprintf(line + width, sizeof line - (size_t)width, ", %s to go",
                           time_of(elapsed / done - elapsed, left));
-    if (p->in_place)
-        fprintf(p->out, "\r%-*s", p->width, line); /* blanks over the end of a longer one */
-    else
-        fprintf(p->out, "%s\n", line);
-    fflush(p->out);
-    p->width = width;
-    p->next = now + (p->in_place ? SECONDS_IN_PLACE : SECONDS_OF_LINES);
+    print(p, line, width, now);
+}
+
+void rt_progress_tell_of(rt_progress *p, const char *work, double now)
+{
+    if (!p->out || now < p->next)
+        return;
+    char line[80], gone[TIME_SIZE];
+    const int width =
+        snprintf(line, sizeof line, "rt: %.50s, %s gone", work, time_of(now - p->start, gone));
+    print(p, line, width, now);
 }
 
 void rt_progress_clear(rt_progress *p)

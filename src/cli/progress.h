@@ -21,6 +21,9 @@ void rt_progress_begin(rt_progress *progress, FILE *out, bool in_place, double n
  * younger than a tenth of a second in place, or a second as lines. */
 void rt_progress_tell(rt_progress *progress, double done, double now);
 
+/* Prints "rt: WORK, 0:12 gone" likewise, of work of which nobody knows how long it takes. */
+void rt_progress_tell_of(rt_progress *progress, const char *work, double now);
+
 /* Clears the line, so that what is printed next finds an empty one; telling may go on. */
 void rt_progress_clear(rt_progress *progress);
 

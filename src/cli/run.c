@@ -21,6 +21,14 @@ static bool keep_going(void *context, double done)
     return !rt_signals_have_come();
 }
 
+static bool keep_building(void *context, double done)
+{
+    rt_run *r = context;
+    (void)done;
+    rt_progress_tell_of(&r->progress, "compiling for this kind of scene, once", rt_clock_seconds());
+    return !rt_signals_have_come();
+}
+
 void rt_run_heed_signals(rt_run *r)
 {
     if (!rt_signals_have_come() || r->status.code == RT_INTERRUPTED)
@@ -85,6 +93,7 @@ bool rt_run_begin(rt_run *r)
 {
     rt_signals_catch();
     r->watch = (rt_watch){keep_going, r};
+    r->building = (rt_watch){keep_building, r};
     rt_scene_init(&r->scene);
     if (r->options.target == RT_TARGET_DEVICE && !r->options.no_cost)
         rt_device_list_begin(&r->opening);

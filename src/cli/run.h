@@ -18,6 +18,7 @@ typedef struct rt_run {
     rt_status status;
     double start; /* by rt_clock_seconds */
     rt_watch watch;
+    rt_watch building; /* of kernels that are compiled */
     rt_progress progress;
     rt_scene scene;
     rt_effects effects; /* of the scene */

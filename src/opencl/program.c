@@ -77,12 +77,27 @@ static cl_program compile(const rt_recipe *r, rt_status *status)
     return NULL;
 }
 
+/* The options with those of the environment, NULL without memory; the caller frees them. */
+static char *all_options(const char *options)
+{
+    const char *more = getenv("RT_BUILD_OPTIONS");
+    char *all = NULL;
+    return asprintf(&all, "%s%s%s", options, more && *more ? " " : "", more ? more : "") < 0 ? NULL
+                                                                                             : all;
+}
+
+/* Kernels that someone is working on, or NULL: each is another program, and not kept. */
+static const char *folder_of_kernels(void)
+{
+    const char *folder = getenv("RT_KERNELS");
+    return folder && *folder ? folder : NULL;
+}
+
 /* The recipe's program, from the cache or the compiler. */
 static cl_program build(rt_recipe *recipe, rt_status *status)
 {
-    const char *folder = getenv("RT_KERNELS");
-    if (folder && *folder) {
-        /* Kernels that someone is working on: each is another program, and not kept. */
+    const char *folder = folder_of_kernels();
+    if (folder) {
         char *text = read_folder(folder, &recipe->length, status);
         recipe->text = text;
         cl_program program = text ? compile(recipe, status) : NULL;
@@ -98,12 +113,29 @@ static cl_program build(rt_recipe *recipe, rt_status *status)
     return program;
 }
 
+cl_program rt_program_kept(cl_context context, const rt_device *device, const char *options)
+{
+    char *all = folder_of_kernels() ? NULL : all_options(options);
+    const rt_recipe recipe = {context, device, all, rt_kernel_text, rt_kernel_text_length};
+    cl_program program = all ? rt_program_cache_load(&recipe) : NULL;
+    free(all);
+    return program;
+}
+
+bool rt_program_can_be_kept(const rt_device *device, const char *options)
+{
+    char *all = folder_of_kernels() ? NULL : all_options(options);
+    const rt_recipe recipe = {NULL, device, all, rt_kernel_text, rt_kernel_text_length};
+    const bool can = all && rt_program_cache_wants(&recipe);
+    free(all);
+    return can;
+}
+
 cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
                             rt_status *status)
 {
-    const char *more = getenv("RT_BUILD_OPTIONS");
-    char *all = NULL;
-    if (asprintf(&all, "%s%s%s", options, more && *more ? " " : "", more ? more : "") < 0) {
+    char *all = all_options(options);
+    if (!all) {
         rt_status_no_memory(status, "kernels");
         return NULL;
     }

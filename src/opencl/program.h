@@ -16,4 +16,10 @@
 cl_program rt_program_build(cl_context context, const rt_device *device, const char *options,
                             rt_status *status);
 
+/* The same program from the cache alone; NULL, which is no error, where it is not there. */
+cl_program rt_program_kept(cl_context context, const rt_device *device, const char *options);
+
+/* Whether it is not there and there is a place for it: another process may put it there. */
+bool rt_program_can_be_kept(const rt_device *device, const char *options);
+
 #endif

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "common/file.h"
 
@@ -92,6 +93,19 @@ static void seal(const char *binary, size_t size, char text[SEAL_SIZE + 1])
 {
     snprintf(text, SEAL_SIZE + 1, "\n%0*llx\n", SEAL_SIZE - 2,
              (unsigned long long)hash_of(binary, size));
+}
+
+bool rt_program_cache_wants(const rt_recipe *r)
+{
+    size_t length = 0;
+    char *key = key_of(r, &length);
+    char *folder = make_folder();
+    char *path = key && folder ? path_of(key, length) : NULL;
+    const bool wants = path && access(path, F_OK) != 0 && access(folder, W_OK | X_OK) == 0;
+    free(path);
+    free(folder);
+    free(key);
+    return wants;
 }
 
 cl_program rt_program_cache_load(const rt_recipe *r)

@@ -9,6 +9,7 @@
 #ifndef RT_OPENCL_PROGRAM_CACHE_H
 #define RT_OPENCL_PROGRAM_CACHE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "opencl/cl.h"
@@ -26,6 +27,9 @@ typedef struct rt_recipe {
 /* The built program, or NULL where there is none. The folder is RT_CACHE_DIR, else rt in
  * XDG_CACHE_HOME, else .cache/rt in HOME; an empty RT_CACHE_DIR means no cache. */
 cl_program rt_program_cache_load(const rt_recipe *recipe);
+
+/* Whether it is not there and there is a place for it. */
+bool rt_program_cache_wants(const rt_recipe *recipe);
 
 /* Keeps a program that has been built. */
 void rt_program_cache_save(const rt_recipe *recipe, cl_program program);

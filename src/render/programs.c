@@ -1,18 +1,40 @@
 #include "render/programs.h"
 
+#include "opencl/compiler.h"
 #include "opencl/program.h"
+
+/* Each of the walk's programs is long in the making. */
+static bool compile(const rt_device *device, char options[][RT_VARIANT_OPTIONS_SIZE],
+                    const bool is_missing[], const rt_watch *watch, rt_status *status)
+{
+    const char *missing[RT_PART_COUNT];
+    size_t count = 0;
+    for (int part = 0; part < RT_PART_COUNT; ++part)
+        if (is_missing[part])
+            missing[count++] = options[part];
+    return rt_compiler_run(device, missing, count, watch, status);
+}
 
 bool rt_programs_build(rt_programs *programs, cl_context context, const rt_device *device,
                        const rt_effects *effects, const rt_walk *walk, bool with_any_hit,
-                       rt_status *status)
+                       const rt_watch *watch, rt_status *status)
 {
+    char options[RT_PART_COUNT][RT_VARIANT_OPTIONS_SIZE];
+    bool is_missing[RT_PART_COUNT] = {false};
     *programs = (rt_programs){{NULL}};
     for (int part = RT_PART_TRACE; part < RT_PART_COUNT; ++part) {
         if (part == RT_PART_OCCLUDE && !with_any_hit)
             continue;
-        char options[RT_VARIANT_OPTIONS_SIZE];
-        rt_variant_options(part, effects, walk, rt_variant_rounding(device), options);
-        programs->parts[part] = rt_program_build(context, device, options, status);
+        rt_variant_options(part, effects, walk, rt_variant_rounding(device), options[part]);
+        programs->parts[part] = rt_program_kept(context, device, options[part]);
+        is_missing[part] = !programs->parts[part];
+    }
+    if (!compile(device, options, is_missing, watch, status))
+        return false;
+    for (int part = 0; part < RT_PART_COUNT; ++part) {
+        if (!is_missing[part])
+            continue;
+        programs->parts[part] = rt_program_build(context, device, options[part], status);
         if (!programs->parts[part])
             return false;
     }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "common/status.h"
+#include "common/watch.h"
 #include "opencl/cl.h"
 #include "opencl/device.h"
 #include "render/variant.h"
@@ -13,11 +14,12 @@ typedef struct rt_programs {
     cl_program parts[RT_PART_COUNT]; /* NULL for what is not needed, and for RT_PART_ALL */
 } rt_programs;
 
-/* Builds what the effects call for on a device; with any hit where that is asked for. After a
- * failure, too, the caller releases what there is. */
+/* Builds what the effects call for on a device; with any hit where that is asked for. While
+ * compilers run, the watch is told the part of the missing programs that is there, and may stop
+ * them with RT_INTERRUPTED. After a failure, too, the caller releases what there is. */
 bool rt_programs_build(rt_programs *programs, cl_context context, const rt_device *device,
                        const rt_effects *effects, const rt_walk *walk, bool with_any_hit,
-                       rt_status *status);
+                       const rt_watch *watch, rt_status *status);
 void rt_programs_release(rt_programs *programs);
 
 #endif

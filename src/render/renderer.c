@@ -18,7 +18,7 @@ const rt_render_times *rt_renderer_times(const rt_renderer *renderer)
 }
 
 static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene, const rt_bvh *bvh,
-                  rt_status *status)
+                  const rt_watch *watch, rt_status *status)
 {
     const cl_context_properties properties[] = {CL_CONTEXT_PLATFORM,
                                                 (cl_context_properties)device->platform, 0};
@@ -34,7 +34,7 @@ static bool build(rt_renderer *r, const rt_device *device, const rt_scene *scene
         return false;
     const rt_walk walk = {r->lanes, r->packet, bvh ? bvh->stack_size : 0, scene->accuracy};
     if (!rt_programs_build(&r->programs, r->context, device, &r->effects, &walk,
-                           rt_renderer_has_any_hit(r), status))
+                           rt_renderer_has_any_hit(r), watch, status))
         return false;
     r->times.program = rt_clock_seconds() - start;
     start = rt_clock_seconds();
@@ -93,7 +93,8 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
     const int side = round_up(r->tile_side, RT_BLOCK_SIDE);
     r->capacity = side * side;
     r->stride = r->capacity + STRIDE_PADDING;
-    if (remember(r, scene, options->effects, status) && build(r, device, scene, bvh, status))
+    if (remember(r, scene, options->effects, status) &&
+        build(r, device, scene, bvh, options->building, status))
         return r;
     rt_renderer_free(r);
     return NULL;

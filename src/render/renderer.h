@@ -24,6 +24,8 @@ typedef struct rt_render_options {
     bool with_hits;      /* whether rt_renderer_draw may be asked for hit records */
     bool with_occlusion; /* whether rt_renderer_occluded may be called */
     const rt_effects *effects; /* what to build the kernels for; NULL: rt_effects_of the scene */
+    const rt_watch *building;  /* told how far they are while compilers run, and may stop them with
+                                * RT_INTERRUPTED; a team tells by one thread at a time */
 } rt_render_options;
 
 enum rt_stage {

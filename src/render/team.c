@@ -135,6 +135,21 @@ static int choose_side(const rt_team *team, int side)
     return side;
 }
 
+/* Threads come in any order, but what the caller's watch sees never goes back, and once it has said
+ * stop it is not asked again. */
+static bool tick_locked(void *context, double done)
+{
+    rt_team *team = context;
+    pthread_mutex_lock(&team->lock);
+    if (done > team->done)
+        team->done = done;
+    if (!team->stopped)
+        team->stopped = !rt_watch_tick(team->inner, team->done);
+    const bool stopped = team->stopped;
+    pthread_mutex_unlock(&team->lock);
+    return !stopped;
+}
+
 rt_team *rt_team_new(const rt_device *const *devices, size_t count, const rt_scene *scene,
                      const rt_bvh *bvh, const rt_render_options *options, rt_status *status)
 {
@@ -161,9 +176,14 @@ rt_team *rt_team_new(const rt_device *const *devices, size_t count, const rt_sce
         members[i].own = RT_STATUS_INIT;
         members[i].device = devices[i];
     }
+    const rt_watch locked = {tick_locked, team};
+    team->inner = options->building;
+    if (count > 1 && options->building)
+        team->options.building = &locked;
     const bool good = for_all(team, make_renderer, status);
     team->scene = NULL; /* scene and tree may be cleared from here on */
     team->bvh = NULL;
+    team->inner = team->options.building = NULL;
     if (good)
         return team;
     rt_team_free(team);
@@ -179,21 +199,6 @@ void rt_team_free(rt_team *team)
     pthread_mutex_destroy(&team->lock);
     free(team->members);
     free(team);
-}
-
-/* Threads come in any order, but what the caller's watch sees never goes back, and once it has said
- * stop it is not asked again. */
-static bool tick_locked(void *context, double done)
-{
-    rt_team *team = context;
-    pthread_mutex_lock(&team->lock);
-    if (done > team->done)
-        team->done = done;
-    if (!team->stopped)
-        team->stopped = !rt_watch_tick(team->inner, team->done);
-    const bool stopped = team->stopped;
-    pthread_mutex_unlock(&team->lock);
-    return !stopped;
 }
 
 bool rt_team_draw(rt_team *team, rt_image *image, const rt_watch *watch, rt_status *status)

@@ -100,6 +100,7 @@ static rt_renderer *make_renderer(const bench *b, const rt_scene *scene, const r
 {
     rt_render_options options = *b->options;
     options.effects = effects;
+    options.building = &b->watch;
     return rt_renderer_new(b->device, scene, b->bvh, &options, b->status);
 }
 

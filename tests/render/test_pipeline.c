@@ -46,7 +46,7 @@ static void build(rt_programs *programs, const rt_effects *effects, bool with_an
     *context = clCreateContext(NULL, 1, &device->id, NULL, NULL, &error);
     assert_int_equal(error, CL_SUCCESS);
     assert_good(
-        rt_programs_build(programs, *context, device, effects, &walk, with_any_hit, &status),
+        rt_programs_build(programs, *context, device, effects, &walk, with_any_hit, NULL, &status),
         &status);
 }
 

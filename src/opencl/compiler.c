@@ -1,0 +1,143 @@
+#define _GNU_SOURCE
+#include "opencl/compiler.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "opencl/program.h"
+
+#define MILLISECONDS_A_TICK 100
+
+extern char **environ;
+
+static const char *compiler;
+
+void rt_compiler_set(const char *executable)
+{
+    compiler = executable;
+}
+
+/* A process at work; `end` is readable once it is over, and -1 from then on. */
+typedef struct child {
+    pid_t process;
+    int end;
+} child;
+
+/* Without output, since whoever waits says what went wrong when it tries itself; in a group of its
+ * own, for Ctrl-C is the waiting process's to answer. The other end of its pipe is its standard
+ * output. */
+static bool spawn(child *c, char *const arguments[], int output)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    if (posix_spawn_file_actions_init(&files) != 0)
+        return false;
+    if (posix_spawnattr_init(&attributes) != 0) {
+        posix_spawn_file_actions_destroy(&files);
+        return false;
+    }
+    const bool good =
+        posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0) == 0 &&
+        posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0) == 0 &&
+        posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO) == 0 &&
+        posix_spawnattr_setpgroup(&attributes, 0) == 0 &&
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP) == 0 &&
+        posix_spawn(&c->process, compiler, &files, &attributes, arguments, environ) == 0;
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return good;
+}
+
+static bool begin(child *c, const rt_device *device, const char *options)
+{
+    char selector[32], call[] = RT_COMPILER_CALL;
+    int ends[2];
+    snprintf(selector, sizeof selector, "%d:%d", device->platform_index, device->device_index);
+    /* posix_spawn promises not to change the strings. */
+    char *const arguments[] = {call, call, selector, (char *)(size_t)options, NULL};
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        return false;
+    const bool good = spawn(c, arguments, ends[1]);
+    close(ends[1]);
+    c->end = ends[0];
+    if (!good)
+        close(ends[0]);
+    return good;
+}
+
+static void finish(child *c)
+{
+    while (waitpid(c->process, NULL, 0) < 0 && errno == EINTR)
+        ;
+    close(c->end);
+    c->end = -1;
+}
+
+/* Lets those go that are over, and returns how many are not; waits for one a tick at most. */
+static size_t wait_for(child *children, size_t count)
+{
+    struct pollfd ends[RT_COMPILER_MOST];
+    size_t left = 0;
+    for (size_t i = 0; i < count; ++i)
+        ends[i] = (struct pollfd){children[i].end, POLLIN, 0};
+    const bool has_news = poll(ends, (nfds_t)count, MILLISECONDS_A_TICK) > 0;
+    for (size_t i = 0; i < count; ++i) {
+        if (has_news && children[i].end >= 0 && ends[i].revents)
+            finish(&children[i]);
+        left += children[i].end >= 0;
+    }
+    return left;
+}
+
+static void stop(child *children, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (children[i].end >= 0) {
+            kill(-children[i].process, SIGKILL);
+            finish(&children[i]);
+        }
+}
+
+bool rt_compiler_run(const rt_device *device, const char *const *options, size_t count,
+                     const rt_watch *watch, rt_status *status)
+{
+    child children[RT_COMPILER_MOST];
+    size_t begun = 0;
+    for (size_t i = 0; compiler && i < count && begun < RT_COMPILER_MOST; ++i)
+        begun += rt_program_can_be_kept(device, options[i]) &&
+                 begin(&children[begun], device, options[i]);
+    for (size_t left = begun; left > 0; left = wait_for(children, begun))
+        if (!rt_watch_tick(watch, (double)(count - left) / (double)count)) {
+            stop(children, begun);
+            return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
+        }
+    return true;
+}
+
+int rt_compiler_main(const char *device, const char *options)
+{
+    rt_device_list devices = {0};
+    rt_status status = RT_STATUS_INIT;
+    cl_int error = CL_SUCCESS;
+    /* Nobody waits for what a process that was killed has asked for. */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const rt_device *chosen =
+        rt_device_list_read(&devices, &status) ? rt_device_choose(&devices, device, &status) : NULL;
+    cl_context context = chosen ? clCreateContext(NULL, 1, &chosen->id, NULL, NULL, &error) : NULL;
+    cl_program program =
+        context && error == CL_SUCCESS ? rt_program_build(context, chosen, options, &status) : NULL;
+    if (program)
+        clReleaseProgram(program);
+    if (context)
+        clReleaseContext(context);
+    rt_device_list_clear(&devices);
+    rt_status_clear(&status);
+    return program ? 0 : 1;
+}
