@@ -3,15 +3,19 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "opencl/program.h"
+#include "opencl/program_cache.h"
 
 #define MILLISECONDS_A_TICK 100
 
@@ -24,6 +28,58 @@ void rt_compiler_set(const char *executable)
     compiler = executable;
 }
 
+/* A folder for what PoCL writes while it compiles: it leaves that behind where it is killed. The
+ * processes have it in the place of PoCL's cache, of which they have no need. */
+typedef struct workshop {
+    char *variable; /* owned: "POCL_CACHE_DIR=..." */
+    const char *folder;
+    char **environment; /* owned; its strings are the process's but for the variable */
+} workshop;
+
+#define VARIABLE "POCL_CACHE_DIR="
+
+static int remove_entry(const char *path, const struct stat *what, int type, struct FTW *at)
+{
+    (void)what;
+    (void)type;
+    (void)at;
+    remove(path);
+    return 0;
+}
+
+static void close_workshop(workshop *w)
+{
+    if (w->folder)
+        nftw(w->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    free(w->environment);
+    free(w->variable);
+}
+
+/* False where there is no place for it. */
+static bool open_workshop(workshop *w)
+{
+    char *cache = rt_program_cache_folder();
+    size_t count = 0;
+    *w = (workshop){NULL, NULL, NULL};
+    if (!cache || asprintf(&w->variable, VARIABLE "%s/compiling-XXXXXX", cache) < 0)
+        w->variable = NULL;
+    free(cache);
+    while (environ[count])
+        ++count;
+    w->environment = calloc(count + 2, sizeof *w->environment);
+    if (w->variable && w->environment)
+        w->folder = mkdtemp(w->variable + strlen(VARIABLE));
+    if (!w->folder) {
+        close_workshop(w);
+        return false;
+    }
+    w->environment[0] = w->variable;
+    for (size_t i = 0, to = 1; i < count; ++i)
+        if (strncmp(environ[i], VARIABLE, strlen(VARIABLE)) != 0)
+            w->environment[to++] = environ[i];
+    return true;
+}
+
 /* A process at work; `end` is readable once it is over, and -1 from then on. */
 typedef struct child {
     pid_t process;
@@ -33,7 +89,7 @@ typedef struct child {
 /* Without output, since whoever waits says what went wrong when it tries itself; in a group of its
  * own, for Ctrl-C is the waiting process's to answer. The other end of its pipe is its standard
  * output. */
-static bool spawn(child *c, char *const arguments[], int output)
+static bool spawn(child *c, char *const arguments[], char *const environment[], int output)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -49,13 +105,13 @@ static bool spawn(child *c, char *const arguments[], int output)
         posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO) == 0 &&
         posix_spawnattr_setpgroup(&attributes, 0) == 0 &&
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP) == 0 &&
-        posix_spawn(&c->process, compiler, &files, &attributes, arguments, environ) == 0;
+        posix_spawn(&c->process, compiler, &files, &attributes, arguments, environment) == 0;
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
     return good;
 }
 
-static bool begin(child *c, const rt_device *device, const char *options)
+static bool begin(child *c, const rt_device *device, const char *options, char *const environment[])
 {
     char selector[32], call[] = RT_COMPILER_CALL;
     int ends[2];
@@ -64,7 +120,7 @@ static bool begin(child *c, const rt_device *device, const char *options)
     char *const arguments[] = {call, call, selector, (char *)(size_t)options, NULL};
     if (pipe2(ends, O_CLOEXEC) != 0)
         return false;
-    const bool good = spawn(c, arguments, ends[1]);
+    const bool good = spawn(c, arguments, environment, ends[1]);
     close(ends[1]);
     c->end = ends[0];
     if (!good)
@@ -110,15 +166,19 @@ bool rt_compiler_run(const rt_device *device, const char *const *options, size_t
 {
     child children[RT_COMPILER_MOST];
     size_t begun = 0;
-    for (size_t i = 0; compiler && i < count && begun < RT_COMPILER_MOST; ++i)
+    bool goes_on = true;
+    workshop w;
+    if (!compiler || count == 0 || !open_workshop(&w))
+        return true;
+    for (size_t i = 0; i < count && begun < RT_COMPILER_MOST; ++i)
         begun += rt_program_can_be_kept(device, options[i]) &&
-                 begin(&children[begun], device, options[i]);
-    for (size_t left = begun; left > 0; left = wait_for(children, begun))
-        if (!rt_watch_tick(watch, (double)(count - left) / (double)count)) {
-            stop(children, begun);
-            return rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
-        }
-    return true;
+                 begin(&children[begun], device, options[i], w.environment);
+    for (size_t left = begun; goes_on && left > 0; left = wait_for(children, begun))
+        goes_on = rt_watch_tick(watch, (double)(count - left) / (double)count);
+    if (!goes_on)
+        stop(children, begun);
+    close_workshop(&w);
+    return goes_on || rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
 }
 
 int rt_compiler_main(const char *device, const char *options)

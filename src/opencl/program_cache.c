@@ -37,8 +37,7 @@ static uint64_t hash_of(const char *bytes, size_t length)
     return hash;
 }
 
-/* The folder, made where it is missing; NULL for no cache. The caller frees it. */
-static char *make_folder(void)
+char *rt_program_cache_folder(void)
 {
     const char *own = getenv("RT_CACHE_DIR");
     const char *shared = getenv("XDG_CACHE_HOME");
@@ -64,7 +63,7 @@ static char *make_folder(void)
 
 static char *path_of(const char *key, size_t length)
 {
-    char *folder = make_folder();
+    char *folder = rt_program_cache_folder();
     char *path = NULL;
     if (folder &&
         asprintf(&path, "%s/%016llx", folder, (unsigned long long)hash_of(key, length)) < 0)
@@ -99,7 +98,7 @@ bool rt_program_cache_wants(const rt_recipe *r)
 {
     size_t length = 0;
     char *key = key_of(r, &length);
-    char *folder = make_folder();
+    char *folder = rt_program_cache_folder();
     char *path = key && folder ? path_of(key, length) : NULL;
     const bool wants = path && access(path, F_OK) != 0 && access(folder, W_OK | X_OK) == 0;
     free(path);
