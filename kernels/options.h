@@ -7,11 +7,12 @@
 #define RT_PART RT_PART_ALL
 #endif
 #if RT_PART < 0 || RT_PART >= RT_PART_COUNT
-#error "RT_PART must be from 0 to 3"
+#error "RT_PART must be from 0 to 4"
 #endif
 #define RT_HAS_TRACE (RT_PART == RT_PART_ALL || RT_PART == RT_PART_TRACE)
 #define RT_HAS_OCCLUDE (RT_PART == RT_PART_ALL || RT_PART == RT_PART_OCCLUDE)
 #define RT_HAS_STAGES (RT_PART == RT_PART_ALL || RT_PART == RT_PART_STAGES)
+#define RT_HAS_SECONDARY (RT_PART == RT_PART_ALL || RT_PART == RT_PART_SECONDARY)
 
 /* The level of accuracy: 0 fast, 1 standard, 2 robust, 3 double (src/common/accuracy.h). */
 #ifndef RT_ACCURACY

@@ -21,6 +21,10 @@ static bool act(rt_run *run)
         return true;
     case RT_ACTION_LIST:
         return rt_action_list(run);
+    case RT_ACTION_CACHE:
+        return rt_action_cache(run);
+    case RT_ACTION_CACHE_CLEAR:
+        return rt_action_cache_clear(run);
     case RT_ACTION_STUDY:
         return rt_action_study(run);
     case RT_ACTION_PLOT:

@@ -187,7 +187,7 @@ INLINE int choose(number *mirrored, number *bent, number tint, int bounce, numbe
     return 1;
 }
 
-#if RT_NEXT
+#if RT_HAS_SECONDARY && RT_NEXT
 /* The stage after shade where rays go on: each ray's next one, or the end of it. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS, 1, 1))) void
 rt_next(TRACED_PARAMETERS, const rt_tile tile, const rt_turn turn, const uint seed,

@@ -109,7 +109,7 @@ INLINE void shadow_probe(const shadow_item *item, size_t k, __global const rt_li
     store_probe(probes, step, j, &origin, &l, item->on[k] ? tmax : (number)-1.0f);
 }
 
-#if RT_SHADOWS
+#if RT_HAS_SECONDARY && RT_SHADOWS
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_shadow_rays(TRACED_PARAMETERS, const rt_turn turn, __global const rt_light *lights,
                __global number *probes, const rt_tile tile, const uint seed,
@@ -190,7 +190,7 @@ INLINE void ambient_probe(const ambient_item *item, size_t k, number distance, u
     store_probe(probes, step, j, &start, &out, on ? distance : (number)-1.0f);
 }
 
-#if RT_AMBIENT_OCCLUSION
+#if RT_HAS_SECONDARY && RT_AMBIENT_OCCLUSION
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void
 rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
                 __global number *probes, const rt_tile tile, const uint seed,
@@ -220,7 +220,7 @@ rt_ambient_rays(TRACED_PARAMETERS, const rt_turn turn, const rt_crevice crevice,
 }
 #endif
 
-#if RT_PROBES
+#if RT_HAS_SECONDARY && RT_PROBES
 /* Counts the probes that got through, a row of `open` a light and one more for ambient light, and,
  * for --stats, those that were cast. */
 __kernel __attribute__((reqd_work_group_size(RT_BLOCK_RAYS / RT_ITEM_RAYS, 1, 1))) void

@@ -1,7 +1,7 @@
 /* Between passes over a tile's paths: how many rays go on, and the arrays of those alone, in the
  * order that they had. What has ended takes no more time; the picture is the same. */
 
-#if RT_NEXT
+#if RT_HAS_SECONDARY && RT_NEXT
 INLINE int goes_on(__global const number *next_rays, size_t step, size_t i)
 {
     return next_rays[RT_RAY_TMAX * step + i] > next_rays[RT_RAY_TMIN * step + i];

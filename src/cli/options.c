@@ -147,6 +147,8 @@ static bool read_tile(rt_options *o, const char *value)
         return true;                                                                               \
     }
 
+READER(cache, o->action = RT_ACTION_CACHE)
+READER(cache_clear, o->action = RT_ACTION_CACHE_CLEAR)
 READER(explain, o->explain = true)
 READER(grammar, o->action = RT_ACTION_GRAMMAR)
 READER(help, o->action = RT_ACTION_HELP)
@@ -173,6 +175,8 @@ static const struct row {
     {"accuracy", 0, "LEVEL", read_accuracy, "fast, standard, robust or double",
      "fast, standard, robust (the default) or double, whatever the\n"
      "scene says\n"},
+    {"cache", 0, NULL, read_cache, NULL, "tell what is kept of built programs and exit\n"},
+    {"cache-clear", 0, NULL, read_cache_clear, NULL, "remove it and exit\n"},
     {"device", 'd', "DEVICE", read_device, "the name or index of a device",
      "where to render: an index of --list-devices, P:D, cpu, gpu,\n"
      "accelerator, any part of a name, scalar (plain C in float) or\n"

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -67,6 +68,19 @@ void rt_file_free(rt_file_text *text)
 {
     free(text->bytes);
     *text = (rt_file_text){NULL, 0};
+}
+
+static int remove_entry(const char *path, const struct stat *what, int type, struct FTW *at)
+{
+    (void)what;
+    (void)type;
+    (void)at;
+    return remove(path);
+}
+
+bool rt_file_remove_tree(const char *path)
+{
+    return nftw(path, remove_entry, 16, FTW_DEPTH | FTW_PHYS) == 0;
 }
 
 static bool fail(rt_status *status, const char *path, const char *reason)

@@ -21,6 +21,10 @@ const char *rt_file_read(const char *path, rt_file_text *text);
 char *rt_file_beside(const char *path, const char *name, size_t length);
 void rt_file_free(rt_file_text *text);
 
+/* Removes a file, or a folder with all that is in it, links as such; false, with errno set, where
+ * some of it stays. */
+bool rt_file_remove_tree(const char *path);
+
 /* A file on its way out. It is opened before the work, so that a target that cannot be written is
  * known at once; what stands at the target stays until rt_output_commit. */
 typedef struct rt_output {

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
@@ -14,8 +13,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "common/file.h"
+#include "opencl/cache.h"
 #include "opencl/program.h"
-#include "opencl/program_cache.h"
 
 #define MILLISECONDS_A_TICK 100
 
@@ -38,19 +38,10 @@ typedef struct workshop {
 
 #define VARIABLE "POCL_CACHE_DIR="
 
-static int remove_entry(const char *path, const struct stat *what, int type, struct FTW *at)
-{
-    (void)what;
-    (void)type;
-    (void)at;
-    remove(path);
-    return 0;
-}
-
 static void close_workshop(workshop *w)
 {
     if (w->folder)
-        nftw(w->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+        rt_file_remove_tree(w->folder);
     free(w->environment);
     free(w->variable);
 }
@@ -58,7 +49,7 @@ static void close_workshop(workshop *w)
 /* False where there is no place for it. */
 static bool open_workshop(workshop *w)
 {
-    char *cache = rt_program_cache_folder();
+    char *cache = rt_cache_folder();
     size_t count = 0;
     *w = (workshop){NULL, NULL, NULL};
     if (!cache || asprintf(&w->variable, VARIABLE "%s/compiling-XXXXXX", cache) < 0)

@@ -15,7 +15,7 @@
 #define RT_COMPILER_CALL "--compile-kernels"
 
 /* Programs at a time. */
-#define RT_COMPILER_MOST 4
+#define RT_COMPILER_MOST 8
 
 /* Names the executable that understands the call, for the whole life of the process and before any
  * thread begins. Without one nothing is compiled here. */

@@ -8,6 +8,7 @@
 
 #include "common/array.h"
 #include "common/number.h"
+#include "opencl/cache.h"
 
 #define PLATFORM_NOT_FOUND_KHR (-1001)
 
@@ -113,6 +114,7 @@ static void suit_pocl(void)
      * and again for any size when the program's binary is asked for, to be kept. The kernels are as
      * fast in this last form (ASSUME_GROUP), so that is the only one. */
     setenv("POCL_WORK_GROUP_SPECIALIZATION", "0", 0);
+    rt_cache_suit_pocl();
 }
 
 static bool read_list(rt_device_list *list, rt_status *status)

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "common/file.h"
+#include "opencl/cache.h"
 
 #define MAGIC "rt program 1\n"
 
@@ -37,33 +38,9 @@ static uint64_t hash_of(const char *bytes, size_t length)
     return hash;
 }
 
-char *rt_program_cache_folder(void)
-{
-    const char *own = getenv("RT_CACHE_DIR");
-    const char *shared = getenv("XDG_CACHE_HOME");
-    const char *home = getenv("HOME");
-    char *folder = NULL;
-    int length = -1;
-    if (own)
-        length = *own ? asprintf(&folder, "%s", own) : -1;
-    else if (shared && *shared == '/')
-        length = asprintf(&folder, "%s/rt", shared);
-    else if (home && *home == '/')
-        length = asprintf(&folder, "%s/.cache/rt", home);
-    if (length < 0)
-        return NULL;
-    for (char *slash = strchr(folder + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        mkdir(folder, 0700); /* most are there already; what cannot be made shows at the end */
-        *slash = '/';
-    }
-    mkdir(folder, 0700);
-    return folder;
-}
-
 static char *path_of(const char *key, size_t length)
 {
-    char *folder = rt_program_cache_folder();
+    char *folder = rt_cache_folder();
     char *path = NULL;
     if (folder &&
         asprintf(&path, "%s/%016llx", folder, (unsigned long long)hash_of(key, length)) < 0)
@@ -98,7 +75,7 @@ bool rt_program_cache_wants(const rt_recipe *r)
 {
     size_t length = 0;
     char *key = key_of(r, &length);
-    char *folder = rt_program_cache_folder();
+    char *folder = rt_cache_folder();
     char *path = key && folder ? path_of(key, length) : NULL;
     const bool wants = path && access(path, F_OK) != 0 && access(folder, W_OK | X_OK) == 0;
     free(path);
@@ -114,14 +91,16 @@ cl_program rt_program_cache_load(const rt_recipe *r)
     char *path = key ? path_of(key, length) : NULL;
     rt_file_text file = {NULL, 0};
     cl_program program = NULL;
-    if (path && rt_file_read(path, &file) == NULL && file.length > length + SEAL_SIZE &&
-        memcmp(file.bytes, key, length) == 0) {
+    if (path && rt_cache_is_own(path) && rt_file_read(path, &file) == NULL &&
+        file.length > length + SEAL_SIZE && memcmp(file.bytes, key, length) == 0) {
         const char *binary = file.bytes + length + SEAL_SIZE;
         const size_t size = file.length - length - SEAL_SIZE;
         char expected[SEAL_SIZE + 1];
         seal(binary, size, expected);
         if (memcmp(file.bytes + length, expected, SEAL_SIZE) == 0)
             program = program_of(r, (const unsigned char *)binary, size);
+        if (program)
+            rt_cache_touch(path);
     }
     rt_file_free(&file);
     free(path);
@@ -159,8 +138,10 @@ void rt_program_cache_save(const rt_recipe *r, cl_program program)
     if (binary && rt_output_open(&file, path, &ignored) &&
         rt_output_write(&file, key, length, &ignored) &&
         rt_output_write(&file, sealed, SEAL_SIZE, &ignored) &&
-        rt_output_write(&file, binary, size, &ignored))
-        rt_output_commit(&file, &ignored);
+        rt_output_write(&file, binary, size, &ignored) && rt_output_commit(&file, &ignored)) {
+        chmod(path, S_IRUSR | S_IWUSR);
+        rt_cache_bound();
+    }
     rt_output_discard(&file);
     rt_status_clear(&ignored);
     free(binary);

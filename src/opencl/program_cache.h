@@ -24,12 +24,8 @@ typedef struct rt_recipe {
     size_t length;
 } rt_recipe;
 
-/* The built program, or NULL where there is none. The folder is RT_CACHE_DIR, else rt in
- * XDG_CACHE_HOME, else .cache/rt in HOME; an empty RT_CACHE_DIR means no cache. */
+/* The built program, or NULL where there is none. The folder is rt_cache_folder's. */
 cl_program rt_program_cache_load(const rt_recipe *recipe);
-
-/* That folder, made where it is missing; NULL for none. The caller frees it. */
-char *rt_program_cache_folder(void);
 
 /* Whether it is not there and there is a place for it. */
 bool rt_program_cache_wants(const rt_recipe *recipe);

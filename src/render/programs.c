@@ -3,7 +3,6 @@
 #include "opencl/compiler.h"
 #include "opencl/program.h"
 
-/* Each of the walk's programs is long in the making. */
 static bool compile(const rt_device *device, char options[][RT_VARIANT_OPTIONS_SIZE],
                     const bool is_missing[], const rt_watch *watch, rt_status *status)
 {
@@ -22,8 +21,8 @@ bool rt_programs_build(rt_programs *programs, cl_context context, const rt_devic
     char options[RT_PART_COUNT][RT_VARIANT_OPTIONS_SIZE];
     bool is_missing[RT_PART_COUNT] = {false};
     *programs = (rt_programs){{NULL}};
-    for (int part = RT_PART_TRACE; part < RT_PART_COUNT; ++part) {
-        if (part == RT_PART_OCCLUDE && !with_any_hit)
+    for (int part = 0; part < RT_PART_COUNT; ++part) {
+        if (!rt_variant_has_part(part, effects, with_any_hit))
             continue;
         rt_variant_options(part, effects, walk, rt_variant_rounding(device), options[part]);
         programs->parts[part] = rt_program_kept(context, device, options[part]);

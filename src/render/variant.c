@@ -61,22 +61,58 @@ static void add_shading(const rt_effects *effects, char *options)
         add(options, " -DRT_LIGHTS=%d", effects->light_count);
 }
 
-/* Which sides triangles have is the walks' affair, with a sign, and all else that of the stages. */
-static void add_effects(const rt_effects *effects, bool walks, bool shades, char *options)
+/* Whether a part depends on an effect: which sides triangles have is the walks' affair. */
+static bool concerns(int part, enum rt_effect effect)
+{
+    switch (part) {
+    case RT_PART_TRACE:
+    case RT_PART_OCCLUDE:
+        return effect == RT_EFFECT_CULL;
+    case RT_PART_STAGES:
+        return effect != RT_EFFECT_CULL;
+    case RT_PART_SECONDARY:
+        return effect == RT_EFFECT_REFLECT || effect == RT_EFFECT_REFRACT ||
+               effect == RT_EFFECT_SMOOTH || effect == RT_EFFECT_HARD_SHADOWS ||
+               effect == RT_EFFECT_SOFT_SHADOWS || effect == RT_EFFECT_AMBIENT_OCCLUSION;
+    default:
+        return true;
+    }
+}
+
+static void add_effects(int part, const rt_effects *effects, char *options)
 {
 #define WORD(word, name) #word,
     static const char *const words[RT_EFFECT_COUNT] = {RT_EFFECTS(WORD)};
 #undef WORD
-    for (int e = 0; e < RT_EFFECT_COUNT; ++e)
-        add(options, " -DRT_%s=%d", words[e],
-            e == RT_EFFECT_CULL ? walks * effects->cull_sign
-                                : shades && rt_effects_has(effects, (enum rt_effect)e));
+    for (int e = 0; e < RT_EFFECT_COUNT; ++e) {
+        const int on = e == RT_EFFECT_CULL ? effects->cull_sign
+                                           : (int)rt_effects_has(effects, (enum rt_effect)e);
+        add(options, " -DRT_%s=%d", words[e], concerns(part, (enum rt_effect)e) ? on : 0);
+    }
+}
+
+bool rt_variant_has_part(int part, const rt_effects *effects, bool with_any_hit)
+{
+    switch (part) {
+    case RT_PART_ALL:
+        return false;
+    case RT_PART_OCCLUDE:
+        return with_any_hit;
+    case RT_PART_SECONDARY:
+        return rt_effects_has(effects, RT_EFFECT_HARD_SHADOWS) ||
+               rt_effects_has(effects, RT_EFFECT_SOFT_SHADOWS) ||
+               rt_effects_has(effects, RT_EFFECT_AMBIENT_OCCLUSION) ||
+               rt_effects_has(effects, RT_EFFECT_REFLECT) ||
+               rt_effects_has(effects, RT_EFFECT_REFRACT);
+    default:
+        return true;
+    }
 }
 
 void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk,
                         enum rt_rounding rounding, char *options)
 {
-    const bool walks = part != RT_PART_STAGES;
+    const bool walks = part == RT_PART_ALL || part == RT_PART_TRACE || part == RT_PART_OCCLUDE;
     const bool shades = part == RT_PART_STAGES || part == RT_PART_ALL;
     *options = '\0';
     add(options, "-cl-std=CL1.2 " RT_ARGUMENTS_OPTION "%s%s -DRT_PART=%d -DRT_ACCURACY=%d",
@@ -89,5 +125,5 @@ void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk
     if (shades)
         add_shading(effects, options);
     add_kinds(effects, options);
-    add_effects(effects, walks, shades, options);
+    add_effects(part, effects, options);
 }

@@ -30,4 +30,7 @@ typedef struct rt_walk {
 void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk,
                         enum rt_rounding rounding, char *options);
 
+/* Whether pictures of these effects take the part; any hit also where somebody else asks for it. */
+bool rt_variant_has_part(int part, const rt_effects *effects, bool with_any_hit);
+
 #endif

@@ -45,7 +45,7 @@ static void unknown_variants_do_not_build(void **state)
                                       "-DRT_HARD_SHADOWS=2",
                                       "-DRT_SWITCHED=2",
                                       "-DRT_ABSORB=1",
-                                      "-DRT_PART=4",
+                                      "-DRT_PART=5",
                                       "-DRT_LENS=RT_LENS"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         rt_status status = RT_STATUS_INIT;

@@ -43,8 +43,10 @@ static void parts_follow_from_what_they_are_of(void **state)
     (void)state;
     char plain[RT_VARIANT_OPTIONS_SIZE], other[RT_VARIANT_OPTIONS_SIZE];
     const rt_effects phong = {.has_kind[RT_KIND_SPHERES] = true, .exponent_bits = 8};
-    rt_effects rich = phong, culled = phong;
-    rich.on[RT_EFFECT_FOG] = rich.on[RT_EFFECT_REFRACT] = rich.has_fractional_exponent = true;
+    rt_effects rich = phong, culled = phong, bent = phong, shaded = phong;
+    rich.on[RT_EFFECT_FOG] = rich.on[RT_EFFECT_CHECKER] = rich.has_fractional_exponent = true;
+    bent.on[RT_EFFECT_REFRACT] = true;
+    shaded.on[RT_EFFECT_SOFT_SHADOWS] = true;
     rich.exponent_bits = 20;
     rich.light_count = 3;
     culled.on[RT_EFFECT_CULL] = true;
@@ -52,14 +54,19 @@ static void parts_follow_from_what_they_are_of(void **state)
     const rt_walk walk = {.lanes = 8, .packet = 64, .stack_size = 65, .accuracy = 2};
     const rt_walk single = {.lanes = 8, .packet = 8, .stack_size = 0, .accuracy = 2};
     for (int part = RT_PART_TRACE; part < RT_PART_COUNT; ++part) {
-        const bool shades = part == RT_PART_STAGES;
+        const bool walks = part == RT_PART_TRACE || part == RT_PART_OCCLUDE;
         rt_variant_options(part, &phong, &walk, RT_ROUNDING_DEVICE, plain);
         rt_variant_options(part, &rich, &walk, RT_ROUNDING_DEVICE, other);
-        assert_int_equal(strcmp(plain, other) != 0, shades);
+        assert_int_equal(strcmp(plain, other) != 0, part == RT_PART_STAGES);
+        rt_variant_options(part, &bent, &walk, RT_ROUNDING_DEVICE, other);
+        assert_int_equal(strcmp(plain, other) != 0, !walks);
+        rt_variant_options(part, &shaded, &walk, RT_ROUNDING_DEVICE, other);
+        assert_int_equal(strcmp(plain, other) != 0,
+                         part == RT_PART_STAGES || part == RT_PART_SECONDARY);
         rt_variant_options(part, &culled, &walk, RT_ROUNDING_DEVICE, other);
-        assert_int_equal(strcmp(plain, other) != 0, !shades);
+        assert_int_equal(strcmp(plain, other) != 0, walks);
         rt_variant_options(part, &phong, &single, RT_ROUNDING_DEVICE, other);
-        assert_int_equal(strcmp(plain, other) != 0, !shades);
+        assert_int_equal(strcmp(plain, other) != 0, walks);
     }
 }
 
