@@ -21,6 +21,8 @@ static bool act(rt_run *run)
         return true;
     case RT_ACTION_LIST:
         return rt_action_list(run);
+    case RT_ACTION_PREPARE:
+        return rt_action_prepare(run);
     case RT_ACTION_CACHE:
         return rt_action_cache(run);
     case RT_ACTION_CACHE_CLEAR:

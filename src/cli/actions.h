@@ -24,6 +24,9 @@ bool rt_action_explain(rt_run *run);
 /* Lists the devices. */
 bool rt_action_list(rt_run *run);
 
+/* Compiles for the chosen devices what scenes have in common. */
+bool rt_action_prepare(rt_run *run);
+
 /* Tells what is kept of built programs; removes it. */
 bool rt_action_cache(rt_run *run);
 bool rt_action_cache_clear(rt_run *run);

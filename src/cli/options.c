@@ -155,6 +155,7 @@ READER(help, o->action = RT_ACTION_HELP)
 READER(hits, o->hits = value)
 READER(list_devices, o->action = RT_ACTION_LIST)
 READER(no_cost, o->no_cost = true)
+READER(prepare, o->prepare = true)
 READER(quiet, o->quiet = true)
 READER(stats, o->stats = value)
 READER(verify, o->verify = true)
@@ -170,8 +171,8 @@ static const struct row {
     const char *help;  /* lines */
 } rows[] = {
     {"accel", 0, "HOW", read_accel, "bvh or none",
-     "bvh, the default, or none: try every primitive with every ray;\n"
-     "the picture is the same\n"},
+     "bvh, or none: try every primitive with every ray, the default for\n"
+     "up to 4; the picture is the same\n"},
     {"accuracy", 0, "LEVEL", read_accuracy, "fast, standard, robust or double",
      "fast, standard, robust (the default) or double, whatever the\n"
      "scene says\n"},
@@ -207,6 +208,9 @@ static const struct row {
     {"no-cost", 0, NULL, read_no_cost, NULL, "explain without measuring, and without a device\n"},
     {"plot", 0, "FILE", read_plot, "the REPORT.json of a study",
      "make the report of an earlier study anew from its REPORT.json\n"},
+    {"prepare", 0, NULL, read_prepare, NULL,
+     "compile what scenes of any primitives take, for --device and\n"
+     "--accuracy, and exit: their first pictures then wait less\n"},
     {"progress", 0, "WHEN", read_progress, "auto, always or never",
      "tell on standard error how far a long render is: auto (the\n"
      "default: on a terminal), always or never\n"},

@@ -26,11 +26,12 @@ enum rt_action {
     RT_ACTION_LIST,
     RT_ACTION_CACHE,
     RT_ACTION_CACHE_CLEAR,
+    RT_ACTION_PREPARE,
     RT_ACTION_GRAMMAR
 };
 
 /* How rays find primitives: by a tree, or by trying all. */
-enum rt_accel { RT_ACCEL_BVH, RT_ACCEL_NONE };
+enum rt_accel { RT_ACCEL_AUTO, RT_ACCEL_BVH, RT_ACCEL_NONE };
 
 enum rt_target { RT_TARGET_DEVICE, RT_TARGET_SCALAR, RT_TARGET_SCALAR_DOUBLE };
 
@@ -55,6 +56,7 @@ typedef struct rt_options {
     enum rt_effects_mode effects;
     bool verify, quiet;
     bool explain, no_cost; /* a table of effects in place of a picture; without measuring */
+    bool prepare;          /* compile, and draw nothing */
     const char *study;     /* what the names of the report begin with, or NULL */
     const char *plot;      /* the figures of an earlier study, or NULL; ends in RT_PLOT_ENDING */
     bool has_plan;         /* whether an option narrows the study */

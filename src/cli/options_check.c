@@ -89,10 +89,26 @@ static bool check_plot(rt_options *o, rt_status *status)
     return true;
 }
 
+/* --prepare is for devices, and knows no scene. */
+static bool check_prepare(rt_options *o, rt_status *status)
+{
+    if (o->scene || o->study || o->explain || o->verify || o->hits || o->stats)
+        return rt_usage_fail(status, "--prepare compiles what many scenes take, and renders none",
+                             "");
+    if (o->target != RT_TARGET_DEVICE)
+        return rt_usage_fail(status, "--prepare is for OpenCL devices", "");
+    if (o->quiet)
+        o->progress = RT_PROGRESS_NEVER;
+    o->action = RT_ACTION_PREPARE;
+    return true;
+}
+
 bool rt_options_check(rt_options *o, rt_status *status)
 {
     if (o->plot)
         return check_plot(o, status);
+    if (o->prepare)
+        return check_prepare(o, status);
     if (!o->scene)
         return rt_usage_fail(status, "no scene is given", "");
     if (!check_study(o, status))

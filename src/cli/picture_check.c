@@ -24,7 +24,7 @@ static bool draw_hits(rt_run *r, rt_image *image)
                                        .with_hits = true,
                                        .effects = &r->effects,
                                        .building = &rt_signals_watch};
-    const rt_bvh *tree = r->options.accel == RT_ACCEL_NONE ? NULL : &r->bvh;
+    const rt_bvh *tree = r->bvh.node_count ? &r->bvh : NULL;
     rt_scene scene = r->scene; /* its arrays are shared */
     if (scene.samples > SAMPLES_MOST)
         scene.samples = SAMPLES_MOST;

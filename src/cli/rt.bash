@@ -37,10 +37,10 @@ _rt()
         ;;
     *)
         [[ $current == -* ]] || return
-        words="--accel= --accuracy= --device= --effects= --error= --explain --format= --grammar --help
-               --hits= --lanes= --list-devices --no-cost --plot= --progress= --quiet --seconds= --size=
-               --stats= --study= --study-levels= --study-repeats= --study-samples= --tile= --verify
-               --version"
+        words="--accel= --accuracy= --cache --cache-clear --device= --effects= --error= --explain
+               --format= --grammar --help --hits= --lanes= --list-devices --no-cost --plot= --prepare
+               --progress= --quiet --seconds= --size= --stats= --study= --study-levels=
+               --study-repeats= --study-samples= --tile= --verify --version"
         ;;
     esac
     # In a list only what follows the last comma is completed.

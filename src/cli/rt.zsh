@@ -12,6 +12,8 @@ _rt_devices()
 _arguments -s -S \
     '--accel=[how rays find primitives]:how:(bvh none)' \
     '--accuracy=[how accurate, whatever the scene says]:level:(fast standard robust double)' \
+    '(- *)--cache[tell what is kept of built programs]' \
+    '(- *)--cache-clear[remove what is kept of built programs]' \
     '(-d --device)'{-d+,--device=}'[where to render]:device:_rt_devices' \
     '--effects=[what is compiled into the kernels]:which:(scene all none)' \
     '--error=[add samples until the error is that small]:steps of 256: ' \
@@ -24,6 +26,7 @@ _arguments -s -S \
     '(- *)--list-devices[list the OpenCL devices]' \
     '--no-cost[explain without measuring]' \
     '--plot=[make the report of a study anew]:figures:_files -g "*.json"' \
+    '--prepare[compile what many scenes take]' \
     '--progress=[tell how far a long render is]:when:(auto always never)' \
     '(-q --quiet)'{-q,--quiet}'[print errors only]' \
     '--seconds=[add samples until so long has passed]:seconds: ' \

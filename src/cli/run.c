@@ -25,7 +25,7 @@ static bool keep_building(void *context, double done)
 {
     rt_run *r = context;
     (void)done;
-    rt_progress_tell_of(&r->progress, "compiling for this kind of scene, once", rt_clock_seconds());
+    rt_progress_tell_of(&r->progress, "compiling kernels, once", rt_clock_seconds());
     return !rt_signals_have_come();
 }
 
@@ -89,11 +89,16 @@ static bool read_scene(rt_run *r)
     return true;
 }
 
-bool rt_run_begin(rt_run *r)
+void rt_run_heed(rt_run *r)
 {
     rt_signals_catch();
     r->watch = (rt_watch){keep_going, r};
     r->building = (rt_watch){keep_building, r};
+}
+
+bool rt_run_begin(rt_run *r)
+{
+    rt_run_heed(r);
     rt_scene_init(&r->scene);
     if (r->options.target == RT_TARGET_DEVICE && !r->options.no_cost)
         rt_device_list_begin(&r->opening);
@@ -117,10 +122,17 @@ bool rt_run_choose_devices(rt_run *r)
     return r->chosen_count > 0;
 }
 
+/* So many primitives are tried one by one in at most the time that a tree takes, by a kernel that
+ * is compiled in half the time: traces of 1, 2 and 4 spheres took 0.85 to 0.94 of it, of as many
+ * triangles 0.92 to 1.01, of 6 primitives 1.2 to 1.3. */
+#define PRIMITIVES_WITHOUT_TREE 4
+
 bool rt_run_build_tree(rt_run *r, const rt_bvh **tree)
 {
     *tree = NULL;
-    if (r->options.accel == RT_ACCEL_NONE)
+    if (r->options.accel == RT_ACCEL_NONE ||
+        (r->options.accel == RT_ACCEL_AUTO &&
+         rt_scene_primitive_count(&r->scene) <= PRIMITIVES_WITHOUT_TREE))
         return true;
     const double start = rt_clock_seconds();
     const bool good = rt_bvh_build(&r->bvh, &r->scene, rt_parallel_processors(), &r->status);

@@ -31,9 +31,12 @@ typedef struct rt_run {
     rt_stats stats; /* as far as it is known */
 } rt_run;
 
+/* From here on signals stop the run by its watches. */
+void rt_run_heed(rt_run *run);
+
 /* Each of these returns false after an error, which is in the run's status. */
 
-/* Begins a run whose options are there: signals stop it from here on, and while devices open it
+/* Begins a run whose options are there: heeds signals, and while devices open it
  * reads the scene, as the options change it, and tells the warnings. */
 bool rt_run_begin(rt_run *run);
 

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "common/file.h"
+#include "common/parallel.h"
 #include "opencl/cache.h"
 #include "opencl/program.h"
 
@@ -58,9 +59,7 @@ static bool open_workshop(workshop *w)
     while (environ[count])
         ++count;
     w->environment = calloc(count + 2, sizeof *w->environment);
-    if (w->variable && w->environment)
-        w->folder = mkdtemp(w->variable + strlen(VARIABLE));
-    if (!w->folder) {
+    if (!w->variable || !w->environment || !(w->folder = mkdtemp(w->variable + strlen(VARIABLE)))) {
         close_workshop(w);
         return false;
     }
@@ -107,11 +106,14 @@ static bool begin(child *c, const rt_device *device, const char *options, char *
     char selector[32], call[] = RT_COMPILER_CALL;
     int ends[2];
     snprintf(selector, sizeof selector, "%d:%d", device->platform_index, device->device_index);
-    /* posix_spawn promises not to change the strings. */
-    char *const arguments[] = {call, call, selector, (char *)(size_t)options, NULL};
-    if (pipe2(ends, O_CLOEXEC) != 0)
+    char *own = strdup(options);
+    char *const arguments[] = {call, call, selector, own, NULL};
+    if (!own || pipe2(ends, O_CLOEXEC) != 0) {
+        free(own);
         return false;
+    }
     const bool good = spawn(c, arguments, environment, ends[1]);
+    free(own);
     close(ends[1]);
     c->end = ends[0];
     if (!good)
@@ -127,47 +129,79 @@ static void finish(child *c)
     c->end = -1;
 }
 
-/* Lets those go that are over, and returns how many are not; waits for one a tick at most. */
-static size_t wait_for(child *children, size_t count)
+/* Programs to compile, so many at a time as there are processors. */
+typedef struct queue {
+    const rt_device *device;
+    const char *const *options; /* `count` */
+    size_t count, next, running;
+    child children[RT_COMPILER_MOST]; /* `end` is -1 where none is at work */
+    size_t room;
+    char **environment;
+} queue;
+
+/* Begins with what comes next, where there is room. */
+static void fill(queue *q)
 {
-    struct pollfd ends[RT_COMPILER_MOST];
-    size_t left = 0;
-    for (size_t i = 0; i < count; ++i)
-        ends[i] = (struct pollfd){children[i].end, POLLIN, 0};
-    const bool has_news = poll(ends, (nfds_t)count, MILLISECONDS_A_TICK) > 0;
-    for (size_t i = 0; i < count; ++i) {
-        if (has_news && children[i].end >= 0 && ends[i].revents)
-            finish(&children[i]);
-        left += children[i].end >= 0;
-    }
-    return left;
+    for (size_t i = 0; i < q->room; ++i)
+        while (q->children[i].end < 0 && q->next < q->count) {
+            const char *options = q->options[q->next++];
+            if (rt_program_can_be_kept(q->device, options) &&
+                begin(&q->children[i], q->device, options, q->environment))
+                ++q->running;
+        }
 }
 
-static void stop(child *children, size_t count)
+/* Lets those go that are over; waits for one, a tick at most. */
+static void wait_for(queue *q)
 {
-    for (size_t i = 0; i < count; ++i)
-        if (children[i].end >= 0) {
-            kill(-children[i].process, SIGKILL);
-            finish(&children[i]);
+    struct pollfd ends[RT_COMPILER_MOST];
+    for (size_t i = 0; i < q->room; ++i)
+        ends[i] = (struct pollfd){q->children[i].end, POLLIN, 0};
+    if (poll(ends, (nfds_t)q->room, MILLISECONDS_A_TICK) <= 0)
+        return;
+    for (size_t i = 0; i < q->room; ++i)
+        if (q->children[i].end >= 0 && ends[i].revents) {
+            finish(&q->children[i]);
+            --q->running;
         }
+}
+
+static void stop(queue *q)
+{
+    for (size_t i = 0; i < q->room; ++i)
+        if (q->children[i].end >= 0) {
+            kill(-q->children[i].process, SIGKILL);
+            finish(&q->children[i]);
+        }
+}
+
+static size_t room_for(size_t count)
+{
+    const size_t processors = (size_t)rt_parallel_processors();
+    const size_t room = processors < RT_COMPILER_MOST ? processors : RT_COMPILER_MOST;
+    return room < count ? room : count;
 }
 
 bool rt_compiler_run(const rt_device *device, const char *const *options, size_t count,
                      const rt_watch *watch, rt_status *status)
 {
-    child children[RT_COMPILER_MOST];
-    size_t begun = 0;
+    queue q = {.device = device, .options = options, .count = count, .room = room_for(count)};
     bool goes_on = true;
     workshop w;
     if (!compiler || count == 0 || !open_workshop(&w))
         return true;
-    for (size_t i = 0; i < count && begun < RT_COMPILER_MOST; ++i)
-        begun += rt_program_can_be_kept(device, options[i]) &&
-                 begin(&children[begun], device, options[i], w.environment);
-    for (size_t left = begun; goes_on && left > 0; left = wait_for(children, begun))
-        goes_on = rt_watch_tick(watch, (double)(count - left) / (double)count);
+    q.environment = w.environment;
+    for (size_t i = 0; i < q.room; ++i)
+        q.children[i].end = -1;
+    for (fill(&q); goes_on && q.running > 0; fill(&q)) {
+        goes_on = rt_watch_tick(watch, (double)(q.next - q.running) / (double)count);
+        if (goes_on)
+            wait_for(&q);
+        else
+            q.next = count;
+    }
     if (!goes_on)
-        stop(children, begun);
+        stop(&q);
     close_workshop(&w);
     return goes_on || rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
 }

@@ -14,14 +14,14 @@
 /* As the first argument of such a process; a device as "P:D" and options follow. */
 #define RT_COMPILER_CALL "--compile-kernels"
 
-/* Programs at a time. */
+/* Processes at a time, at most; no more than there are processors. */
 #define RT_COMPILER_MOST 8
 
 /* Names the executable that understands the call, for the whole life of the process and before any
  * thread begins. Without one nothing is compiled here. */
 void rt_compiler_set(const char *executable);
 
-/* Compiles programs, `options` of each, for a device at the same time, those that are not kept yet.
+/* Compiles programs, `options` of each, for a device side by side, those that are not kept yet.
  * The watch is ticked ten times a second with the part of them that is there. What cannot be done
  * so is left to rt_program_build; false, with RT_INTERRUPTED, when the watch says stop, a moment
  * after it. */

@@ -20,6 +20,11 @@ typedef struct rt_programs {
 bool rt_programs_build(rt_programs *programs, cl_context context, const rt_device *device,
                        const rt_effects *effects, const rt_walk *walk, bool with_any_hit,
                        const rt_watch *watch, rt_status *status);
+/* Compiles the walks that scenes of any kinds of primitives take at a level, where they are not
+ * kept yet. Without a place to keep them in nothing is done. */
+bool rt_programs_prepare(const rt_device *device, enum rt_accuracy level, const rt_watch *watch,
+                         rt_status *status);
+
 void rt_programs_release(rt_programs *programs);
 
 #endif

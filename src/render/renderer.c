@@ -86,7 +86,7 @@ rt_renderer *rt_renderer_new(const rt_device *device, const rt_scene *scene, con
         return NULL;
     }
     r->lanes = options->lanes ? options->lanes : rt_device_lanes(device, scene->accuracy);
-    r->packet = options->packet ? options->packet : r->lanes == 1 ? 1 : RT_BLOCK_RAYS;
+    r->packet = options->packet ? options->packet : rt_variant_packet(r->lanes);
     r->tile_side = options->tile ? options->tile : RT_TILE_DEFAULT;
     r->with_hits = options->with_hits;
     r->with_occlusion = options->with_occlusion;

@@ -13,6 +13,11 @@ enum rt_rounding rt_variant_rounding(const rt_device *device)
     return device->has_fp64 ? RT_ROUNDING_DOUBLE : RT_ROUNDING_FMA;
 }
 
+int rt_variant_packet(int lanes)
+{
+    return lanes == 1 ? 1 : RT_BLOCK_RAYS;
+}
+
 /* Few sizes, because each is a variant to compile. */
 static int round_stack(size_t need)
 {

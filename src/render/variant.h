@@ -25,6 +25,9 @@ typedef struct rt_walk {
     enum rt_accuracy accuracy;
 } rt_walk;
 
+/* Rays that a work-item traces, for a lane width, unless somebody says otherwise. */
+int rt_variant_packet(int lanes);
+
 /* Writes the compiler options of a part of the kernels (kernels/parts.h) to
  * options[0..RT_VARIANT_OPTIONS_SIZE): what the part does not depend on is the same in all. */
 void rt_variant_options(int part, const rt_effects *effects, const rt_walk *walk,

@@ -45,10 +45,8 @@ rt_renderer *rt_study_renderer(study_state *s, const rt_scene *scene, const rt_b
     rt_effects effects = rt_effects_of(&copy);
     effects.mode = s->how->effects;
     const rt_watch building = rt_study_watch_still(s);
-    const rt_render_options options = {.lanes = s->how->lanes,
-                                       .tile = s->how->tile,
-                                       .effects = &effects,
-                                       .building = &building};
+    const rt_render_options options = {
+        .lanes = s->how->lanes, .tile = s->how->tile, .effects = &effects, .building = &building};
     return rt_renderer_new(s->how->devices[device], &copy, bvh, &options, s->status);
 }
 

@@ -135,6 +135,15 @@ static void lines_without_a_scene(void **state)
     assert_int_equal(o.action, RT_ACTION_VERSION);
     assert_int_equal(read_line("--list-devices", &o, message, sizeof message), RT_OK);
     assert_int_equal(o.action, RT_ACTION_LIST);
+    assert_int_equal(read_line("--cache", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_CACHE);
+    assert_int_equal(read_line("--cache-clear", &o, message, sizeof message), RT_OK);
+    assert_int_equal(o.action, RT_ACTION_CACHE_CLEAR);
+    assert_int_equal(read_line("--prepare --accuracy double -d 0", &o, message, sizeof message),
+                     RT_OK);
+    assert_int_equal(o.action, RT_ACTION_PREPARE);
+    assert_int_equal(o.accuracy, RT_ACCURACY_DOUBLE);
+    assert_string_equal(o.device, "0");
 }
 
 static void the_environment_names_a_device(void **state)
@@ -207,6 +216,9 @@ static const char *const wrong_lines[][2] = {
     {"--plot .json", "--plot takes"},
     {"--plot r.json s.txt", "--plot reads what a study has found, and renders nothing"},
     {"--plot r.json --study r", "--plot reads what a study has found"},
+    {"--prepare s.txt", "--prepare compiles what many scenes take, and renders none"},
+    {"--prepare --stats -", "--prepare compiles what many scenes take, and renders none"},
+    {"--prepare -d scalar", "--prepare is for OpenCL devices"},
     {"--plot r.json --verify", "--plot reads what a study has found"},
     {"--study-levels fast s.txt o.png", "go with --study"},
     {"--study r --study-levels fast,exact s.txt",
