@@ -30,11 +30,16 @@ INLINE uint sequence_of_probe(rt_tile tile, uint seed, uint purpose, __global co
 }
 
 /* A work-item's first ray and its first probe; the probes of its sample s are s times the launch's
- * rays further on. */
+ * rays further on. Where vectors are wide, a work-item is for a block of rays and all samples, so
+ * that what the probes from a hit have in common is found once; where a ray is a work-item, as on a
+ * GPU, which wants many of them, for one sample. */
 #define PROBE_ITEM(turn)                                                                           \
-    const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS;                                    \
-    const size_t first = (size_t)(turn).from + first_probe
-#define EACH_SAMPLE(s) for (int s = 0; s < turn.count; ++s)
+    const uint items = (uint)(turn).rays / RT_ITEM_RAYS;                                           \
+    const size_t first_probe = (size_t)((uint)get_global_id(0) % items * RT_ITEM_RAYS);            \
+    const size_t first = (size_t)(turn).from + first_probe;                                        \
+    const int first_sample = (int)((uint)get_global_id(0) / items);                                \
+    const int end_sample = RT_ITEM_RAYS > 1 ? (turn).count : first_sample + 1
+#define EACH_SAMPLE(s) for (int s = first_sample; s < end_sample; ++s)
 #define FIRST_PROBE_OF(s) (first_probe + (size_t)(s) * (size_t)turn.rays)
 /* Among all samples of a pixel, over all of its rays of as many bounces. */
 #define INDEX_OF(s, samples) ((uint)(turn.sample * (samples) + turn.first + (s)))
@@ -229,15 +234,15 @@ rt_tally(const int stride, const rt_turn turn, const int light_count, __global c
 {
     ASSUME_GROUP(RT_BLOCK_RAYS / RT_ITEM_RAYS);
     const size_t step = (size_t)stride;
-    PROBE_ITEM(turn);
+    const size_t first_probe = get_global_id(0) * RT_ITEM_RAYS;
+    const size_t first = (size_t)turn.from + first_probe;
     __global int *row = open + (size_t)turn.light * step + first;
     const size_t what = turn.light == light_count ? RT_TALLY_AMBIENT : RT_TALLY_SHADOW;
     __global ulong *tally = tallies + what * step + first;
     int through[RT_ITEM_RAYS], rays[RT_ITEM_RAYS];
     EACH_RAY(k)
     through[k] = rays[k] = 0;
-    EACH_SAMPLE(s)
-    {
+    for (int s = 0; s < turn.count; ++s) {
         const size_t from = FIRST_PROBE_OF(s);
         EACH_RAY(k)
         {

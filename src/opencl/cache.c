@@ -22,7 +22,7 @@
 #define SECONDS_OF_REST 3600
 /* Less is left on the disk than a picture's kernels may take. */
 #define LITTLE_SPACE (64 * MEGABYTE)
-#define POCL_FOLDER "pocl"
+#define POCL_FOLDER "pocl-kernels"
 
 /* ---- Where it is ---- */
 
@@ -155,20 +155,41 @@ static void scan(entries *all, const char *folder,
         closedir(open);
 }
 
+/* ---- Whose the names are: somebody may keep other things in a folder that RT_CACHE_DIR names ----
+ */
+
+static bool begins_with(const char *name, const char *digits, size_t count)
+{
+    return strspn(name, digits) == count;
+}
+
+/* A program's hash, with an ending while it is written; what a compiler writes meanwhile. */
+static bool is_ours(const char *name)
+{
+    return (begins_with(name, "0123456789abcdef", 16) && (name[16] == '\0' || name[16] == '.')) ||
+           strncmp(name, RT_CACHE_COMPILING, strlen(RT_CACHE_COMPILING)) == 0;
+}
+
+#define POCLS_LETTERS "ABCDEFGHIJKLMNOP"
+
 static void add_pocls(entries *all, const char *folder, const char *name)
 {
-    add(all, folder, name, true);
+    if (strspn(name, POCLS_LETTERS) == strlen(name))
+        add(all, folder, name, true);
 }
 
 /* PoCL puts a program's folder into one of the first two letters of its hash. */
 static void scan_pocls(entries *all, const char *folder, const char *name)
 {
+    const bool is_row = begins_with(name, POCLS_LETTERS, 2) && name[2] == '\0';
+    if (!is_row && strncmp(name, "tempfile_", 9) != 0)
+        return;
     char *path = NULL;
     if (asprintf(&path, "%s/%s", folder, name) < 0) {
         all->has_memory = false;
         return;
     }
-    if (strlen(name) == 2)
+    if (is_row)
         scan(all, path, add_pocls);
     else
         add(all, folder, name, true);
@@ -177,10 +198,10 @@ static void scan_pocls(entries *all, const char *folder, const char *name)
 
 static void add_own(entries *all, const char *folder, const char *name)
 {
-    if (strcmp(name, POCL_FOLDER) != 0) {
+    if (is_ours(name))
         add(all, folder, name, false);
+    if (strcmp(name, POCL_FOLDER) != 0)
         return;
-    }
     char *path = NULL;
     if (asprintf(&path, "%s/%s", folder, name) < 0) {
         all->has_memory = false;

@@ -14,6 +14,9 @@
  * where there is none that can be used, as with an empty RT_CACHE_DIR. The caller frees it. */
 char *rt_cache_folder(void);
 
+/* What a folder in it begins with that a compiler works in. */
+#define RT_CACHE_COMPILING "compiling-"
+
 /* Whether a file belongs to the user, and to nobody else to write. */
 bool rt_cache_is_own(const char *path);
 
@@ -34,7 +37,7 @@ typedef struct rt_cache_size {
 } rt_cache_size;
 bool rt_cache_measure(rt_cache_size *size, rt_status *status);
 
-/* Removes all of it; other runs then build anew. */
+/* Removes what is rt's in it, and PoCL's; other runs then build anew. */
 bool rt_cache_clear(rt_status *status);
 
 /* Gives PoCL, which has not begun yet, a place for what it compiles, unless the environment names

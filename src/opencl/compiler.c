@@ -53,7 +53,7 @@ static bool open_workshop(workshop *w)
     char *cache = rt_cache_folder();
     size_t count = 0;
     *w = (workshop){NULL, NULL, NULL};
-    if (!cache || asprintf(&w->variable, VARIABLE "%s/compiling-XXXXXX", cache) < 0)
+    if (!cache || asprintf(&w->variable, VARIABLE "%s/" RT_CACHE_COMPILING "XXXXXX", cache) < 0)
         w->variable = NULL;
     free(cache);
     while (environ[count])

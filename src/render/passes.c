@@ -72,9 +72,11 @@ static bool probe(passes *p, int row, int samples, enum rt_stage rays, enum rt_s
         for (size_t first = 0; first < all; first += most_samples) {
             p->turn.first = (cl_int)first;
             p->turn.count = (cl_int)lesser(all - first, most_samples);
-            if (!set_turn(p, rays) || !launch(p, rays, count) ||
-                !launch(p, any_hit, count * (size_t)p->turn.count) ||
-                !set_turn(p, RT_STAGE_SHADOW_TALLY) || !launch(p, tally, count))
+            const size_t probes = count * (size_t)p->turn.count;
+            /* A block's work-item makes the probes of all samples, a ray's that of one. */
+            if (!set_turn(p, rays) || !launch(p, rays, p->r->lanes > 1 ? count : probes) ||
+                !launch(p, any_hit, probes) || !set_turn(p, RT_STAGE_SHADOW_TALLY) ||
+                !launch(p, tally, count))
                 return false;
         }
     }

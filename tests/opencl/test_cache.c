@@ -13,6 +13,10 @@
 #include "opencl/cache.h"
 
 #define KILOBYTES 600
+/* Names of programs. */
+#define OLD "0123456789abcdef"
+#define OLDER "0123456789abcde0"
+#define FRESH "ffffffffffffffff"
 
 static const char *open_cache(const char *name)
 {
@@ -74,7 +78,7 @@ static void a_file_of_others_is_not_believed(void **state)
 {
     (void)state;
     open_cache("cache-of-files");
-    const char *file = add("file", 0);
+    const char *file = add(FRESH, 0);
     assert_int_equal(chmod(file, 0644), 0);
     assert_true(rt_cache_is_own(file));
     assert_int_equal(chmod(file, 0664), 0);
@@ -91,7 +95,7 @@ static void what_rests_longest_goes_first(void **state)
     rt_cache_size size;
     rt_status status = RT_STATUS_INIT;
     open_cache("cache-bounded");
-    const char *old = add("old", 3), *older = add("older", 4), *fresh = add("fresh", 0);
+    const char *old = add(OLD, 3), *older = add(OLDER, 4), *fresh = add(FRESH, 0);
     setenv("RT_CACHE_SIZE", "2", 1);
     rt_cache_bound(); /* 1.8 MB are few enough */
     assert_true(is_there(old) && is_there(older) && is_there(fresh));
@@ -113,15 +117,18 @@ static void pocls_programs_count_too(void **state)
     rt_cache_size size;
     rt_status status = RT_STATUS_INIT;
     open_cache("cache-of-pocl");
-    const char *names[] = {"pocl", "pocl/AB", "pocl/AB/old", "pocl/AB/new"};
+    const char *names[] = {"pocl-kernels", "pocl-kernels/AB", "pocl-kernels/AB/OLD",
+                           "pocl-kernels/AB/FAB"};
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char name[64];
         snprintf(name, sizeof name, "cache-of-pocl/%s", names[i]);
         assert_int_equal(mkdir(test_path(name), 0700), 0);
     }
-    const char *old = add("pocl/AB/old/kernel.so", 3), *used = add("pocl/AB/new/kernel.so", 0);
+    const char *old = add("pocl-kernels/AB/OLD/kernel.so", 3),
+               *used = add("pocl-kernels/AB/FAB/kernel.so", 0);
     const struct timespec times[2] = {{time(NULL) - 86400, 0}, {time(NULL) - 86400, 0}};
-    assert_int_equal(utimensat(AT_FDCWD, test_path("cache-of-pocl/pocl/AB/old"), times, 0), 0);
+    assert_int_equal(utimensat(AT_FDCWD, test_path("cache-of-pocl/pocl-kernels/AB/OLD"), times, 0),
+                     0);
     assert_good(rt_cache_measure(&size, &status), &status);
     assert_int_equal(size.programs, 0);
     assert_int_equal(size.pocl_programs, 2);
@@ -133,6 +140,42 @@ static void pocls_programs_count_too(void **state)
     assert_true(is_there(used));
     assert_good(rt_cache_clear(&status), &status);
     assert_false(is_there(used));
+}
+
+/* A folder may hold what is nobody's to remove but its owner's. */
+static void what_is_not_ours_stays(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "letter.txt",         "0123456789abcde",       "0123456789abcdef0", "0123456789ABCDEF",
+        "pocl-kernels/notes", "pocl-kernels/AB/notes", "pocl-kernels/ABC"};
+    static const char *const ours[] = {OLD, OLD ".x1y2z3", RT_CACHE_COMPILING "abcdef",
+                                       "pocl-kernels/AB/CDEF", "pocl-kernels/tempfile_1"};
+    enum { NAMES = sizeof names / sizeof *names, OURS = sizeof ours / sizeof *ours };
+    rt_status status = RT_STATUS_INIT;
+    char *paths[NAMES];
+    rt_cache_size size;
+    open_cache("cache-of-many");
+    assert_int_equal(mkdir(test_path("cache-of-many/pocl-kernels"), 0700), 0);
+    assert_int_equal(mkdir(test_path("cache-of-many/pocl-kernels/AB"), 0700), 0);
+    for (size_t i = 0; i < NAMES; ++i)
+        assert_non_null(paths[i] = strdup(add(names[i], 9)));
+    for (size_t i = 0; i < OURS; ++i)
+        add(ours[i], 9);
+    setenv("RT_CACHE_SIZE", "0", 1);
+    rt_cache_bound();
+    unsetenv("RT_CACHE_SIZE");
+    assert_good(rt_cache_measure(&size, &status), &status);
+    assert_int_equal(size.programs + size.pocl_programs, 0);
+    for (size_t i = 0; i < OURS; ++i)
+        add(ours[i], 9);
+    assert_good(rt_cache_clear(&status), &status);
+    assert_good(rt_cache_measure(&size, &status), &status);
+    assert_int_equal(size.programs + size.pocl_programs, 0);
+    for (size_t i = 0; i < NAMES; ++i) {
+        assert_true(is_there(paths[i]));
+        free(paths[i]);
+    }
 }
 
 /* In processes of their own, whose PoCL has not begun. */
@@ -162,6 +205,7 @@ int main(void)
                                        cmocka_unit_test(a_file_of_others_is_not_believed),
                                        cmocka_unit_test(what_rests_longest_goes_first),
                                        cmocka_unit_test(pocls_programs_count_too),
+                                       cmocka_unit_test(what_is_not_ours_stays),
                                        cmocka_unit_test(there_is_a_device_without_a_place)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
