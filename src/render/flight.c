@@ -52,22 +52,11 @@ bool rt_flight_finish(flight *f, rt_renderer *r, rt_status *status)
     return !f->busy || land(f, r, status);
 }
 
-/* Rays that a work-item of a kernel takes: RT_PACKET and RT_ITEM_RAYS of the kernels. */
-static size_t rays_an_item(const rt_renderer *r, enum rt_stage kernel)
-{
-    if (kernel == RT_STAGE_TRACE || kernel == RT_STAGE_OCCLUDE)
-        return (size_t)r->packet;
-    const bool takes_blocks = kernel == RT_STAGE_CAMERA || kernel == RT_STAGE_SHADE ||
-                              kernel == RT_STAGE_SHADOW_RAYS || kernel == RT_STAGE_AMBIENT_RAYS ||
-                              kernel == RT_STAGE_SHADOW_TALLY;
-    return takes_blocks && r->lanes > 1 ? RT_BLOCK_RAYS : 1;
-}
-
 bool rt_flight_launch(flight *f, rt_renderer *r, enum rt_stage stage, size_t rays,
                       rt_status *status)
 {
     const enum rt_stage kernel = rt_stage_of_kernel(stage);
-    const size_t rays_per_item = rays_an_item(r, kernel);
+    const size_t rays_per_item = rt_pipeline_rays_an_item(r, stage);
     const size_t global = rays / rays_per_item;
     const size_t local = RT_BLOCK_RAYS / rays_per_item;
     cl_event event = NULL;

@@ -4,33 +4,35 @@
 #include "render/arguments.h"
 #include "render/state.h"
 
-/* Every stage, the one whose kernel and arguments it has, and the program that it is in. */
+/* Every stage, the one whose kernel and arguments it has, the program that it is in, and whether a
+ * work-item is for a block of rays where vectors are wide. */
 static const struct {
     const char *name, *kernel;
     enum rt_stage same_as;
     int part;
+    bool by_blocks;
 } stages[RT_STAGE_COUNT] = {
-    [RT_STAGE_CAMERA] = {"camera", "rt_camera", RT_STAGE_CAMERA, RT_PART_STAGES},
-    [RT_STAGE_TRACE] = {"trace", "rt_trace", RT_STAGE_TRACE, RT_PART_TRACE},
-    [RT_STAGE_SHADE] = {"shade", "rt_shade", RT_STAGE_SHADE, RT_PART_STAGES},
-    [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve", RT_STAGE_RESOLVE, RT_PART_STAGES},
-    [RT_STAGE_OCCLUDE] = {"occlude", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE},
-    [RT_STAGE_HITS] = {"hits", "rt_resolve_hits", RT_STAGE_HITS, RT_PART_STAGES},
+    [RT_STAGE_CAMERA] = {"camera", "rt_camera", RT_STAGE_CAMERA, RT_PART_STAGES, true},
+    [RT_STAGE_TRACE] = {"trace", "rt_trace", RT_STAGE_TRACE, RT_PART_TRACE, false},
+    [RT_STAGE_SHADE] = {"shade", "rt_shade", RT_STAGE_SHADE, RT_PART_STAGES, true},
+    [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve", RT_STAGE_RESOLVE, RT_PART_STAGES, false},
+    [RT_STAGE_OCCLUDE] = {"occlude", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE, false},
+    [RT_STAGE_HITS] = {"hits", "rt_resolve_hits", RT_STAGE_HITS, RT_PART_STAGES, false},
     [RT_STAGE_SHADOW_RAYS] = {"shadow rays", "rt_shadow_rays", RT_STAGE_SHADOW_RAYS,
-                              RT_PART_SECONDARY},
-    [RT_STAGE_SHADOW] = {"shadow", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE},
-    [RT_STAGE_SHADOW_TALLY] = {"shadow tally", "rt_tally", RT_STAGE_SHADOW_TALLY,
-                               RT_PART_SECONDARY},
+                              RT_PART_SECONDARY, true},
+    [RT_STAGE_SHADOW] = {"shadow", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE, false},
+    [RT_STAGE_SHADOW_TALLY] = {"shadow tally", "rt_tally", RT_STAGE_SHADOW_TALLY, RT_PART_SECONDARY,
+                               true},
     [RT_STAGE_AMBIENT_RAYS] = {"ambient rays", "rt_ambient_rays", RT_STAGE_AMBIENT_RAYS,
-                               RT_PART_SECONDARY},
-    [RT_STAGE_AMBIENT] = {"ambient", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE},
+                               RT_PART_SECONDARY, true},
+    [RT_STAGE_AMBIENT] = {"ambient", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE, false},
     [RT_STAGE_AMBIENT_TALLY] = {"ambient tally", "rt_tally", RT_STAGE_SHADOW_TALLY,
-                                RT_PART_SECONDARY},
-    [RT_STAGE_NEXT] = {"next", "rt_next", RT_STAGE_NEXT, RT_PART_SECONDARY},
-    [RT_STAGE_COUNT_NEXT] = {"count", "rt_count", RT_STAGE_COUNT_NEXT, RT_PART_SECONDARY},
-    [RT_STAGE_PACK] = {"pack", "rt_pack", RT_STAGE_PACK, RT_PART_SECONDARY},
-    [RT_STAGE_NEXT_TRACE] = {"next trace", "rt_trace", RT_STAGE_TRACE, RT_PART_TRACE},
-    [RT_STAGE_NEXT_SHADE] = {"next shade", "rt_shade", RT_STAGE_SHADE, RT_PART_STAGES},
+                                RT_PART_SECONDARY, true},
+    [RT_STAGE_NEXT] = {"next", "rt_next", RT_STAGE_NEXT, RT_PART_SECONDARY, false},
+    [RT_STAGE_COUNT_NEXT] = {"count", "rt_count", RT_STAGE_COUNT_NEXT, RT_PART_SECONDARY, false},
+    [RT_STAGE_PACK] = {"pack", "rt_pack", RT_STAGE_PACK, RT_PART_SECONDARY, false},
+    [RT_STAGE_NEXT_TRACE] = {"next trace", "rt_trace", RT_STAGE_TRACE, RT_PART_TRACE, false},
+    [RT_STAGE_NEXT_SHADE] = {"next shade", "rt_shade", RT_STAGE_SHADE, RT_PART_STAGES, true},
 };
 
 const char *rt_stage_name(enum rt_stage stage)
@@ -67,6 +69,13 @@ bool rt_renderer_has_any_hit(const rt_renderer *r)
 static cl_program program_of(const rt_renderer *r, enum rt_stage stage)
 {
     return r->programs.parts[stages[stage].part];
+}
+
+size_t rt_pipeline_rays_an_item(const rt_renderer *r, enum rt_stage stage)
+{
+    if (stages[stage].part == RT_PART_TRACE || stages[stage].part == RT_PART_OCCLUDE)
+        return (size_t)r->packet;
+    return stages[stage].by_blocks && r->lanes > 1 ? RT_BLOCK_RAYS : 1;
 }
 
 static bool has_kernel(const rt_renderer *r, enum rt_stage stage)

@@ -43,4 +43,7 @@ void rt_pipeline_release(rt_renderer *renderer);
 /* The stage whose kernel this one launches: several may be one kernel, timed apart. */
 enum rt_stage rt_stage_of_kernel(enum rt_stage stage);
 
+/* Rays that a work-item of the stage takes: RT_PACKET, RT_ITEM_RAYS or 1 of the kernels. */
+size_t rt_pipeline_rays_an_item(const rt_renderer *renderer, enum rt_stage stage);
+
 #endif
