@@ -15,7 +15,7 @@ static const struct {
     [RT_STAGE_CAMERA] = {"camera", "rt_camera", RT_STAGE_CAMERA, RT_PART_STAGES, true},
     [RT_STAGE_TRACE] = {"trace", "rt_trace", RT_STAGE_TRACE, RT_PART_TRACE, false},
     [RT_STAGE_SHADE] = {"shade", "rt_shade", RT_STAGE_SHADE, RT_PART_STAGES, true},
-    [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve", RT_STAGE_RESOLVE, RT_PART_STAGES, false},
+    [RT_STAGE_RESOLVE] = {"resolve", "rt_resolve", RT_STAGE_RESOLVE, RT_PART_STAGES, true},
     [RT_STAGE_OCCLUDE] = {"occlude", "rt_occlude", RT_STAGE_OCCLUDE, RT_PART_OCCLUDE, false},
     [RT_STAGE_HITS] = {"hits", "rt_resolve_hits", RT_STAGE_HITS, RT_PART_STAGES, false},
     [RT_STAGE_SHADOW_RAYS] = {"shadow rays", "rt_shadow_rays", RT_STAGE_SHADOW_RAYS,
