@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 #include "kernels/effects.def"
@@ -27,15 +28,16 @@ static void open_cache(const char *name)
     setenv("RT_CACHE_DIR", folder, 1);
 }
 
+/* Beside the place that PoCL of this process has. */
 static int files_in_cache(void)
 {
     DIR *folder = opendir(getenv("RT_CACHE_DIR"));
     int count = 0;
     assert_non_null(folder);
-    while (readdir(folder))
-        ++count;
+    for (const struct dirent *e = readdir(folder); e; e = readdir(folder))
+        count += e->d_name[0] != '.' && strcmp(e->d_name, "pocl-kernels") != 0;
     closedir(folder);
-    return count - 2; /* "." and ".." */
+    return count;
 }
 
 static bool is_kept(const char *options)
