@@ -41,8 +41,8 @@ static bool act(rt_run *run)
 
 int main(int argc, char **argv)
 {
-    if (argc == 4 && strcmp(argv[1], RT_COMPILER_CALL) == 0)
-        return rt_compiler_main(argv[2], argv[3]);
+    if (argc == 2 + RT_COMPILER_ARGUMENTS && strcmp(argv[1], RT_COMPILER_CALL) == 0)
+        return rt_compiler_main(argv + 2);
     rt_compiler_set("/proc/self/exe");
     rt_run run = {.start = rt_clock_seconds()};
     bool good = rt_options_read(&run.options, argc, argv, &run.status) && act(&run);

@@ -78,7 +78,7 @@ typedef struct child {
 
 /* Without output, since whoever waits says what went wrong when it tries itself; in a group of its
  * own, for Ctrl-C is the waiting process's to answer. The other end of its pipe is its standard
- * output. */
+ * output, and the first of the three to be set: the pipe may lie where another was closed. */
 static bool spawn(child *c, char *const arguments[], char *const environment[], int output)
 {
     posix_spawn_file_actions_t files;
@@ -90,9 +90,9 @@ static bool spawn(child *c, char *const arguments[], char *const environment[], 
         return false;
     }
     const bool good =
+        posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO) == 0 &&
         posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0) == 0 &&
         posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0) == 0 &&
-        posix_spawn_file_actions_adddup2(&files, output, STDOUT_FILENO) == 0 &&
         posix_spawnattr_setpgroup(&attributes, 0) == 0 &&
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP) == 0 &&
         posix_spawn(&c->process, compiler, &files, &attributes, arguments, environment) == 0;
@@ -103,11 +103,12 @@ static bool spawn(child *c, char *const arguments[], char *const environment[], 
 
 static bool begin(child *c, const rt_device *device, const char *options, char *const environment[])
 {
-    char selector[32], call[] = RT_COMPILER_CALL;
+    char selector[32], call[] = RT_COMPILER_CALL, name[RT_DEVICE_TEXT];
     int ends[2];
     snprintf(selector, sizeof selector, "%d:%d", device->platform_index, device->device_index);
+    memcpy(name, device->name, sizeof name);
     char *own = strdup(options);
-    char *const arguments[] = {call, call, selector, own, NULL};
+    char *const arguments[] = {call, call, selector, name, own, NULL};
     if (!own || pipe2(ends, O_CLOEXEC) != 0) {
         free(own);
         return false;
@@ -115,9 +116,9 @@ static bool begin(child *c, const rt_device *device, const char *options, char *
     const bool good = spawn(c, arguments, environment, ends[1]);
     free(own);
     close(ends[1]);
-    c->end = ends[0];
     if (!good)
         close(ends[0]);
+    c->end = good ? ends[0] : -1;
     return good;
 }
 
@@ -206,8 +207,9 @@ bool rt_compiler_run(const rt_device *device, const char *const *options, size_t
     return goes_on || rt_status_fail(status, RT_INTERRUPTED, "rt: interrupted");
 }
 
-int rt_compiler_main(const char *device, const char *options)
+int rt_compiler_main(char *const arguments[RT_COMPILER_ARGUMENTS])
 {
+    const char *device = arguments[0], *name = arguments[1], *options = arguments[2];
     rt_device_list devices = {0};
     rt_status status = RT_STATUS_INIT;
     cl_int error = CL_SUCCESS;
@@ -215,6 +217,8 @@ int rt_compiler_main(const char *device, const char *options)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rt_device *chosen =
         rt_device_list_read(&devices, &status) ? rt_device_choose(&devices, device, &status) : NULL;
+    if (chosen && strcmp(chosen->name, name) != 0)
+        chosen = NULL;
     cl_context context = chosen ? clCreateContext(NULL, 1, &chosen->id, NULL, NULL, &error) : NULL;
     cl_program program =
         context && error == CL_SUCCESS ? rt_program_build(context, chosen, options, &status) : NULL;

@@ -11,8 +11,9 @@
 #include "common/watch.h"
 #include "opencl/device.h"
 
-/* As the first argument of such a process; a device as "P:D" and options follow. */
+/* As the first argument of such a process; a device as "P:D", its name and options follow. */
 #define RT_COMPILER_CALL "--compile-kernels"
+#define RT_COMPILER_ARGUMENTS 3
 
 /* Processes at a time, at most; no more than there are processors. */
 #define RT_COMPILER_MOST 8
@@ -28,7 +29,8 @@ void rt_compiler_set(const char *executable);
 bool rt_compiler_run(const rt_device *device, const char *const *options, size_t count,
                      const rt_watch *watch, rt_status *status);
 
-/* What the process does; its exit code. */
-int rt_compiler_main(const char *device, const char *options);
+/* What the process does with its arguments; its exit code. Where another device has the place, as
+ * where the one is a processor that is made believe, nothing is done. */
+int rt_compiler_main(char *const arguments[RT_COMPILER_ARGUMENTS]);
 
 #endif
